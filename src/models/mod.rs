@@ -1,0 +1,1 @@
+//! Coating statistics and asymptotes from stored data.

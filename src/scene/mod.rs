@@ -1,0 +1,5 @@
+//! The scene: what a file asks for, checked, in SI units and immutable.
+
+mod model;
+
+pub use model::*;

@@ -1,0 +1,376 @@
+//! The validated scene. All numbers are SI; all references between parts are indices into the scene's own lists.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use std::path::PathBuf;
+
+/// Everything a run needs to know, checked: no later room meets a number out of range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// One line that names the run in its report.
+    pub title: String,
+    /// Seed of every random choice (filling).
+    pub seed: u64,
+    /// Acceleration of gravity, m/s².
+    pub gravity: Vector3<f64>,
+    /// Materials of tablets and boundaries.
+    pub materials: Vec<Material>,
+    /// Friction and restitution of each pair of materials.
+    pub pairs: PairTable,
+    /// Tablet shapes, by name.
+    pub shapes: Vec<Shape>,
+    /// What is filled into the drum. Empty when the scene has free bodies only.
+    pub batches: Vec<Batch>,
+    /// The pan. `None`: free bodies and boundaries only.
+    pub drum: Option<Drum>,
+    /// Bodies placed one by one.
+    pub bodies: Vec<FreeBody>,
+    /// Planes, boxes and meshes other than the drum.
+    pub boundaries: Vec<Boundary>,
+    /// Choices of the contact law.
+    pub contact: ContactSettings,
+    /// Step, settling, duration and frames.
+    pub time: Time,
+    /// The spray. `None`: no panels, no coater.
+    pub spray: Option<Spray>,
+    /// What is written.
+    pub outputs: Outputs,
+}
+
+/// A linear elastic material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name by which shapes and pairs call it.
+    pub name: String,
+    /// Shear modulus G, Pa.
+    pub shear_modulus: f64,
+    /// Poisson's ratio, dimensionless.
+    pub poisson: f64,
+}
+
+/// Properties of a pair of materials.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairProperties {
+    /// Coefficient of sliding friction μ, dimensionless.
+    pub friction: f64,
+    /// Coefficient of restitution e, dimensionless, 0 to 1.
+    pub restitution: f64,
+}
+
+/// Symmetric table of pair properties, `materials × materials`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairTable {
+    materials: usize,
+    entries: Vec<PairProperties>,
+}
+
+impl PairTable {
+    /// A table over `materials` materials in which every pair starts as `default`.
+    pub fn new(materials: usize, default: PairProperties) -> Self {
+        Self { materials, entries: vec![default; materials * materials] }
+    }
+
+    /// Sets the pair `(a, b)` and so `(b, a)`.
+    pub fn set(&mut self, a: usize, b: usize, properties: PairProperties) {
+        self.entries[a * self.materials + b] = properties;
+        self.entries[b * self.materials + a] = properties;
+    }
+
+    /// The properties of materials `a` and `b`, in any order.
+    pub fn get(&self, a: usize, b: usize) -> PairProperties {
+        self.entries[a * self.materials + b]
+    }
+}
+
+/// A tablet shape and how finely it is made of spheres and panels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Name by which batches and bodies call it.
+    pub name: String,
+    /// What the solid is.
+    pub recipe: Recipe,
+    /// How many spheres the clump has (1 for a sphere recipe).
+    pub spheres: usize,
+    /// How many panels the surface is cut into, about.
+    pub panels: usize,
+}
+
+/// Solids by the dimensions people have. Lengths in m.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Recipe {
+    /// A sphere.
+    Sphere {
+        /// Diameter, m.
+        diameter: f64,
+    },
+    /// Circular band with two equal caps.
+    Round {
+        /// Diameter of the band, m.
+        diameter: f64,
+        /// Height of the band, m.
+        band: f64,
+        /// The cap on each side.
+        cap: Cap,
+    },
+    /// A clump given sphere by sphere (`x y z r` in m, body frame at the centre of mass), with its own inertia.
+    Clump {
+        /// File of `x y z r` rows, as resolved from the scene file's folder.
+        path: PathBuf,
+        /// Principal moments of inertia per unit mass, m².
+        inertia_per_mass: [f64; 3],
+    },
+}
+
+/// The cap of a tablet: z(s) above the band, s = 0 at the axis, 1 at the band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cap {
+    /// Part of a sphere.
+    Spherical {
+        /// Height above the band, m.
+        height: f64,
+    },
+    /// z = height (1 − s^exponent): larger exponents are fuller cups.
+    Compound {
+        /// Height above the band, m.
+        height: f64,
+        /// Exponent, dimensionless, above 1.
+        exponent: f64,
+    },
+}
+
+/// A number of equal tablets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Batch {
+    /// Index into [`Scene::shapes`].
+    pub shape: usize,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Mass of one tablet, kg.
+    pub tablet_mass: f64,
+    /// How many tablets.
+    pub count: usize,
+}
+
+/// The pan: axis z through the origin, from z = −width/2 to +width/2.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drum {
+    /// Inner diameter, m.
+    pub diameter: f64,
+    /// Inner width, m.
+    pub width: f64,
+    /// Angular speed about +z, rad/s.
+    pub speed: f64,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Flat facets around the wall.
+    pub facets: usize,
+    /// Baffles, if any.
+    pub baffles: Option<Baffles>,
+}
+
+/// Equal baffles across the width of the drum, tilted ± in turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Baffles {
+    /// How many, evenly spaced.
+    pub count: usize,
+    /// Height above the wall, m.
+    pub height: f64,
+    /// Thickness, m.
+    pub thickness: f64,
+    /// Angle between the baffle's run and the drum's axis, rad; the sign alternates from baffle to baffle.
+    pub tilt: f64,
+}
+
+/// A body placed by hand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreeBody {
+    /// Index into [`Scene::shapes`].
+    pub shape: usize,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass, m.
+    pub position: Vector3<f64>,
+    /// Turns body axes to world axes.
+    pub orientation: UnitQuaternion<f64>,
+    /// Velocity of the centre of mass, m/s.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity, world axes, rad/s.
+    pub spin: Vector3<f64>,
+}
+
+/// A fixed or steadily moving boundary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boundary {
+    /// Its surface.
+    pub surface: BoundarySurface,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Constant velocity, m/s.
+    pub velocity: Vector3<f64>,
+    /// Constant angular velocity about the world origin, rad/s.
+    pub spin: Vector3<f64>,
+}
+
+/// The surface of a boundary.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BoundarySurface {
+    /// An unbounded plane; bodies are on the side its normal points to.
+    Plane {
+        /// A point of the plane, m.
+        point: Vector3<f64>,
+        /// Unit normal.
+        normal: Vector3<f64>,
+    },
+    /// The inside of an axis-aligned box.
+    Box {
+        /// Corner with the smallest coordinates, m.
+        min: Vector3<f64>,
+        /// Corner with the largest coordinates, m.
+        max: Vector3<f64>,
+    },
+    /// A triangle mesh read from a file.
+    Mesh {
+        /// File, as resolved from the scene file's folder.
+        path: PathBuf,
+        /// Metres per unit of the file.
+        scale: f64,
+    },
+}
+
+/// Choices of the contact law, each with the documented default.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ContactSettings {
+    /// What turns overlaps into motion.
+    pub mode: ContactMode,
+    /// Cut the normal force at zero when the dashpot would pull.
+    pub no_tension: bool,
+    /// How the tangential spring follows a changing overlap.
+    pub tangential: TangentialLaw,
+    /// Which mass the dashpots see.
+    pub damping_mass: DampingMass,
+}
+
+/// What turns overlaps into motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ContactMode {
+    /// Hertz-Mindlin forces of our own.
+    #[default]
+    HertzMindlin,
+    /// Rapier's impulse solver at millisecond steps: a quick look, not the method.
+    Impulse,
+}
+
+/// Tangential spring law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TangentialLaw {
+    /// F = −S(δ) ξ with the present stiffness (EDEM, LIGGGHTS, MUSEN, MFiX).
+    #[default]
+    Total,
+    /// dF = −S(δ) dξ (Yade, LAMMPS `mindlin/force`).
+    Incremental,
+    /// Incremental, and the force shrinks with the contact radius on unloading: the passive one
+    /// (LAMMPS `mindlin_rescale/force`).
+    Rescaled,
+}
+
+/// The mass in the dashpots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DampingMass {
+    /// Reduced mass of the whole bodies (EDEM).
+    #[default]
+    Body,
+    /// Mass the contact feels (lever arms included), the damping shared between simultaneous contacts of a body pair.
+    Contact,
+}
+
+/// Time of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Time {
+    /// How the time step is chosen.
+    pub step: StepChoice,
+    /// Highest approach speed expected in a contact, m/s; with the stiffness it gives the contact time.
+    pub impact_speed: f64,
+    /// How long the bed turns before it is sprayed.
+    pub settle: Settle,
+    /// Coated time (or simply run time without a spray), s.
+    pub duration: f64,
+    /// Time between frames, s.
+    pub frame_interval: f64,
+}
+
+/// Choice of the time step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepChoice {
+    /// Steps per Hertz contact at the expected impact speed.
+    PerContact(f64),
+    /// A fixed step, s.
+    Fixed(f64),
+}
+
+/// Settling before the coated time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Settle {
+    /// Until speed, centre of mass and energy are stationary, at most so long, s.
+    Auto {
+        /// Longest settling time, s.
+        at_most: f64,
+    },
+    /// For a fixed time, s; 0 for none.
+    For(f64),
+}
+
+/// The spray gun and how it is rastered.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spray {
+    /// Extent along the drum's axis, m.
+    pub spanwise: f64,
+    /// Extent down the slope, m.
+    pub streamwise: f64,
+    /// Distance from nozzle to bed surface, m.
+    pub distance: f64,
+    /// Where it points.
+    pub aim: Aim,
+    /// Pixels along the spanwise and the streamwise extent.
+    pub pixels: [u32; 2],
+    /// How much is sprayed.
+    pub deposit: Deposit,
+}
+
+/// Where a spray points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Aim {
+    /// Normal to a plane fitted to the free surface after settling, above its middle.
+    Bed,
+    /// Fixed in space.
+    Fixed {
+        /// Centre of the zone on the bed, m.
+        target: Vector3<f64>,
+        /// Unit vector from the zone to the nozzle.
+        normal: Vector3<f64>,
+    },
+}
+
+/// Sprayed amount.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deposit {
+    /// Spray rate of suspension, kg/s.
+    pub rate: f64,
+    /// Solids mass fraction of the suspension, dimensionless.
+    pub solids: f64,
+    /// Density of the dry film, kg/m³.
+    pub film_density: f64,
+}
+
+/// What a run writes beside its record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outputs {
+    /// Time between rows of `series.csv`, s.
+    pub series_interval: f64,
+    /// Whether `report.html` is made.
+    pub report: bool,
+    /// Whether the bed picture is drawn.
+    pub picture: bool,
+    /// Whether bed statistics (angle of repose, speeds, torque) are kept.
+    pub statistics: bool,
+}

@@ -1,0 +1,1 @@
+//! Unit-carrying numbers of scene files, turned to SI.
