@@ -23,3 +23,8 @@ pub struct SurfaceMesh {
     /// Part of each triangle.
     pub parts: Vec<Part>,
 }
+
+impl SurfaceMesh {
+    /// tmp
+    pub fn patches(&self, _a: f64) -> Vec<u32> { self.parts.iter().map(|p| match p { Part::Wall => 0, Part::End(k) => 1 + u32::from(*k), Part::Baffle(k) => 3 + u32::from(*k) }).collect() }
+}
