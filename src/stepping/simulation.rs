@@ -147,7 +147,7 @@ impl Simulation {
         self.stopwatch.lap(Phase::Motion);
         if self.world.must_search(&self.motions) {
             let near = self.world.search(&self.motions, &self.surfaces[..self.meshes]);
-            self.field.set_near(&near);
+            self.field.set_near(near);
             self.stopwatch.lap(Phase::Search);
         }
         for (wrench, body) in self.wrenches.iter_mut().zip(&self.bodies) {

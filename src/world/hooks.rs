@@ -16,12 +16,9 @@ pub(super) struct ContactHooks {
 pub(super) const SURFACE: u128 = u128::MAX;
 
 impl ContactHooks {
-    /// The pairs seen since the last call, each once, smaller index first, sorted.
+    /// The pairs seen since the last call, smaller index first, in any order.
     pub(super) fn take(&self) -> Vec<(u32, u32)> {
-        let mut near = std::mem::take(&mut *self.near.lock().expect("no hook panics"));
-        near.sort_unstable();
-        near.dedup();
-        near
+        std::mem::take(&mut *self.near.lock().expect("no hook panics"))
     }
 }
 

@@ -27,9 +27,10 @@ pub struct World {
     parameters: IntegrationParameters,
     tablets: Vec<RigidBodyHandle>,
     surfaces: Vec<(RigidBodyHandle, SharedShape)>,
-    /// Poses at the last search.
-    searched: Vec<Motion>,
+    /// Poses that Rapier knows, by tablet.
+    known: Vec<Motion>,
     reaches: Vec<f64>,
+    near: Vec<(u32, u32)>,
 }
 
 impl Default for World {
@@ -60,8 +61,9 @@ impl World {
             },
             tablets: Vec::new(),
             surfaces: Vec::new(),
-            searched: Vec::new(),
+            known: Vec::new(),
             reaches: Vec::new(),
+            near: Vec::new(),
         }
     }
 
@@ -86,7 +88,7 @@ impl World {
             (Pose::from_translation(to_f32(&s.center)), SharedShape::ball(s.radius as f32))
         });
         let properties = MassProperties::new(Vec3::ZERO, mass as f32, to_f32(inertia));
-        let body = RigidBodyBuilder::dynamic().pose(pose(motion)).can_sleep(false).user_data(index as u128);
+        let body = RigidBodyBuilder::dynamic().pose(pose(motion)).sleeping(true).user_data(index as u128);
         let handle = self.bodies.insert(body);
         let margin = tuning::MARGIN * clump.bounding_radius();
         let collider = ColliderBuilder::new(SharedShape::compound(balls.collect()))
@@ -95,7 +97,7 @@ impl World {
             .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.tablets.push(handle);
-        self.searched.push(Motion { position: Vector3::repeat(f64::INFINITY), ..*motion });
+        self.known.push(Motion { position: Vector3::repeat(f64::INFINITY), ..*motion });
         self.reaches.push(clump.bounding_radius());
         index
     }
@@ -103,23 +105,33 @@ impl World {
     /// Whether some body may have come near another since the last search: it has used up its share of the margin.
     #[inline]
     pub fn must_search(&self, motions: &[Motion]) -> bool {
-        motions.iter().zip(&self.searched).zip(&self.reaches).any(|((now, then), reach)| {
-            let turned = (3.0 - now.rotation.dot(&then.rotation)).max(0.0).sqrt();
-            let moved = (now.position - then.position).norm() + turned * reach;
-            // Written so that a NaN position searches.
-            !(moved < 0.5 * tuning::MARGIN * reach - tuning::ROUNDING)
-        })
+        // Written so that a NaN position searches.
+        (0..motions.len()).any(|k| !(self.used(k, &motions[k]) < 1.0))
+    }
+
+    /// Share of its margin that a body has used since Rapier learnt its pose, dimensionless.
+    #[inline]
+    fn used(&self, body: usize, now: &Motion) -> f64 {
+        let (then, reach) = (&self.known[body], self.reaches[body]);
+        let turned = (3.0 - now.rotation.dot(&then.rotation)).max(0.0).sqrt();
+        let moved = (now.position - then.position).norm() + turned * reach;
+        moved / (0.5 * tuning::MARGIN * reach - tuning::ROUNDING)
     }
 
     /// All pairs of bodies that can touch before [`World::must_search`] says so: smaller index first, sorted.
-    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion]) -> Vec<(u32, u32)> {
+    ///
+    /// Rapier learns the poses of bodies that have used most of their margin, and its hooks report the pairs those
+    /// bodies are in; all other pairs stay as they were.
+    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion]) -> &[(u32, u32)] {
         for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
             self.bodies[*handle].set_position(pose(motion), false);
         }
-        for (handle, motion) in self.tablets.iter().zip(motions) {
-            self.bodies[*handle].set_position(pose(motion), true);
+        let moved: Vec<bool> =
+            motions.iter().enumerate().map(|(k, m)| !(self.used(k, m) < tuning::EARLY)).collect();
+        for (k, handle) in self.tablets.iter().enumerate().filter(|(k, _)| moved[*k]) {
+            self.bodies[*handle].set_position(pose(&motions[k]), false);
+            self.known[k] = motions[k];
         }
-        self.searched.copy_from_slice(motions);
         self.pipeline.step(
             Vec3::ZERO,
             &self.parameters,
@@ -135,7 +147,11 @@ impl World {
             &self.hooks,
             &(),
         );
-        self.hooks.take()
+        self.near.retain(|(a, b)| !moved[*a as usize] && !moved[*b as usize]);
+        self.near.extend(self.hooks.take());
+        self.near.sort_unstable();
+        self.near.dedup();
+        &self.near
     }
 
     /// Fills `facets` with the facets of a surface whose boxes meet the box from `min` to `max` (surface axes, m), in no

@@ -9,5 +9,8 @@ pub(super) const LENGTH_UNIT: f32 = 0.01;
 /// values give more pairs to watch, smaller ones more searches.
 pub(super) const MARGIN: f64 = 0.25;
 
+/// Bodies that have used this share of their margin are searched together with those that have used it all.
+pub(super) const EARLY: f64 = 0.5;
+
 /// Subtracted from every allowed motion, m: f32 positions near 1 m are exact to 6e-8 m.
 pub(super) const ROUNDING: f64 = 1e-6;
