@@ -9,9 +9,7 @@ pub enum SimulationError {
     #[error(transparent)]
     Shape(#[from] ShapeError),
     /// The drum is full.
-    #[error(
-        "only {placed} of {wanted} tablets fit into the drum: make the drum larger or the batch smaller"
-    )]
+    #[error("only {placed} of {wanted} tablets fit into the drum: make the drum larger or the batch smaller")]
     Full {
         /// Tablets in the drum.
         placed: usize,

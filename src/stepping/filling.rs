@@ -41,5 +41,10 @@ pub(super) fn any_orientation(rng: &mut impl Rng) -> UnitQuaternion<f64> {
     let (u, a, b): (f64, f64, f64) = (rng.random(), rng.random(), rng.random());
     let (a, b) = (a * std::f64::consts::TAU, b * std::f64::consts::TAU);
     let (low, high) = ((1.0 - u).sqrt(), u.sqrt());
-    UnitQuaternion::from_quaternion(Quaternion::new(low * a.sin(), low * a.cos(), high * b.sin(), high * b.cos()))
+    UnitQuaternion::from_quaternion(Quaternion::new(
+        low * a.sin(),
+        low * a.cos(),
+        high * b.sin(),
+        high * b.cos(),
+    ))
 }

@@ -84,9 +84,10 @@ impl World {
     /// index counts from 0.
     pub fn add_tablet(&mut self, clump: &Clump, mass: f64, inertia: &Vector3<f64>, motion: &Motion) -> usize {
         let index = self.tablets.len();
-        let balls = clump.spheres.iter().map(|s| {
-            (Pose::from_translation(to_f32(&s.center)), SharedShape::ball(s.radius as f32))
-        });
+        let balls = clump
+            .spheres
+            .iter()
+            .map(|s| (Pose::from_translation(to_f32(&s.center)), SharedShape::ball(s.radius as f32)));
         let properties = MassProperties::new(Vec3::ZERO, mass as f32, to_f32(inertia));
         let body = RigidBodyBuilder::dynamic().pose(pose(motion)).sleeping(true).user_data(index as u128);
         let handle = self.bodies.insert(body);
