@@ -29,6 +29,24 @@ pub struct Wrench {
     pub torque: Vector3<f64>,
 }
 
+/// What a body touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Partner {
+    /// Another body, by index.
+    Body(usize),
+    /// A surface, by index: the drum first, then the boundaries.
+    Surface(usize),
+}
+
+impl std::fmt::Display for Partner {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Body(k) => write!(f, "body {k}"),
+            Self::Surface(k) => write!(f, "surface {k}"),
+        }
+    }
+}
+
 /// What the contacts of a step amount to.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Tally {
@@ -212,6 +230,16 @@ impl ContactField {
             tally.sphere_contacts += pair.exchange.contacts;
             tally.deepest = tally.deepest.max(pair.exchange.deepest);
         }
+    }
+
+    /// The deepest contact of the last step: its body, and the other body or the surface.
+    pub fn deepest(&self) -> Option<(usize, Partner)> {
+        let pairs = self.pairs.iter().filter(|p| p.exchange.contacts > 0);
+        let pairs = pairs.map(|p| (p.exchange.deepest, p.a as usize, Partner::Body(p.b as usize)));
+        let walls = self.walls.iter().filter(|w| w.exchange.contacts > 0);
+        let walls =
+            walls.map(|w| (w.exchange.deepest, w.body as usize, Partner::Surface(w.surface as usize)));
+        pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, body, partner)| (body, partner))
     }
 
     /// Torque of the bodies on a surface about the surface's origin in the last step, N m.
