@@ -108,7 +108,9 @@ impl ContactField {
     pub fn add_body(&mut self, shape: usize, material: usize, mass: f64, inertia: &Vector3<f64>) {
         let body = self.bodies.len() as u32;
         let inverse_inertia = inertia.map(|i| 1.0 / i);
-        self.bodies.push(BodyConstants { shape, material, inverse_mass: 1.0 / mass, inverse_inertia });
+        let inverse_mass = 1.0 / mass;
+        let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
+        self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
         self.odometers.push(0.0);
         let surfaces = self.boundaries.len() as u32;
         self.walls.extend((0..surfaces).map(|surface| WallList::new(body, surface)));
@@ -182,10 +184,8 @@ impl ContactField {
                 if watch.due(setting.odometers) {
                     rebuilt += u32::from(pair.refresh(watch, &setting, &mut near));
                 }
-                if watch.links > 0 {
+                if watch.alert(setting.odometers) {
                     pair.evaluate(watch, &setting, &mut places);
-                } else {
-                    watch.contacts = 0;
                 }
             }
             rebuilt

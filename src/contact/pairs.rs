@@ -11,6 +11,7 @@ use super::resolve::{Exchange, Partner, Place, Remembers, resolve};
 use crate::scene::DampingMass;
 use crate::world::Motion;
 use nalgebra::{Matrix3, Vector3};
+use smallvec::SmallVec;
 
 /// Two spheres that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,8 +19,8 @@ pub(super) struct Link {
     pub i: u16,
     pub j: u16,
     pub touching: bool,
-    /// Gap when the list was built, m: until the bodies have moved that far the spheres cannot touch.
-    gap: f64,
+    /// Sum of the odometers up to which the spheres cannot touch, m: where they last were, plus the gap there.
+    until: f64,
     pub spring: Spring,
 }
 
@@ -37,8 +38,8 @@ pub(super) struct PairWatch {
     pub b: u32,
     /// Sum of the odometers up to which nothing needs a look, m.
     mark: f64,
-    /// Sphere pairs in the list.
-    pub links: u32,
+    /// Sum of the odometers up to which nothing in the list can touch, m.
+    quiet: f64,
     /// Sphere pairs that touch.
     pub contacts: u32,
 }
@@ -47,12 +48,12 @@ pub(super) struct PairWatch {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BodyPair {
     /// Sorted by (i, j).
-    pub links: Vec<Link>,
-    /// Pose of b in a's axes when the list was built.
-    built: (Vector3<f64>, Matrix3<f64>),
+    pub links: SmallVec<[Link; 4]>,
+    pub exchange: Exchange,
     /// Relative motion the list allows, m.
     allowance: f64,
-    pub exchange: Exchange,
+    /// Pose of b in a's axes when the list was built.
+    built: (Vector3<f64>, Matrix3<f64>),
 }
 
 /// What a pair reads while it works.
@@ -81,6 +82,7 @@ impl Setting<'_> {
             motion: &self.motions[body],
             inverse_mass: constants.inverse_mass,
             inverse_inertia: constants.inverse_inertia,
+            softness: constants.softness,
         }
     }
 }
@@ -92,7 +94,7 @@ const RENEW: f64 = 0.3;
 
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
-        Self { a, b, mark: f64::NEG_INFINITY, links: 0, contacts: 0 }
+        Self { a, b, mark: f64::NEG_INFINITY, quiet: f64::NEG_INFINITY, contacts: 0 }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
@@ -102,20 +104,25 @@ impl PairWatch {
     /// Whether the list may no longer hold all that touches.
     #[inline]
     pub(super) fn due(&self, odometers: &[f64]) -> bool {
-        self.left(odometers) < 0.0
+        self.travelled(odometers) > self.mark
     }
 
-    /// Relative motion that the list still allows, m.
+    /// Whether something in the list may touch, or did.
     #[inline]
-    fn left(&self, odometers: &[f64]) -> f64 {
-        self.mark - (odometers[self.a as usize] + odometers[self.b as usize])
+    pub(super) fn alert(&self, odometers: &[f64]) -> bool {
+        self.contacts > 0 || self.travelled(odometers) > self.quiet
+    }
+
+    #[inline]
+    fn travelled(&self, odometers: &[f64]) -> f64 {
+        odometers[self.a as usize] + odometers[self.b as usize]
     }
 }
 
 impl BodyPair {
     pub(super) fn new() -> Self {
         Self {
-            links: Vec::new(),
+            links: SmallVec::new(),
             built: (Vector3::zeros(), Matrix3::zeros()),
             allowance: 0.0,
             exchange: Exchange::default(),
@@ -130,7 +137,7 @@ impl BodyPair {
         near: &mut Vec<(u16, Vector3<f64>)>,
     ) -> bool {
         let (a, b) = (watch.a as usize, watch.b as usize);
-        let travelled = setting.odometers[a] + setting.odometers[b];
+        let travelled = watch.travelled(setting.odometers);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let position = ma.rotation.tr_mul(&(mb.position - ma.position));
         let rotation = ma.rotation.tr_mul(&mb.rotation);
@@ -143,9 +150,9 @@ impl BodyPair {
             return false;
         }
         self.built = (position, rotation);
-        self.rebuild((a, b), setting, near);
+        self.rebuild((a, b), travelled, setting, near);
         watch.mark = travelled + self.allowance;
-        watch.links = self.links.len() as u32;
+        watch.quiet = f64::NEG_INFINITY;
         true
     }
 
@@ -153,6 +160,7 @@ impl BodyPair {
     fn rebuild(
         &mut self,
         (a, b): (usize, usize),
+        travelled: f64,
         setting: &Setting<'_>,
         near: &mut Vec<(u16, Vector3<f64>)>,
     ) {
@@ -201,9 +209,10 @@ impl BodyPair {
                 }
                 let key = (i as u16, *j);
                 while memory.next_if(|l| (l.i, l.j) < key).is_some() {}
+                let until = travelled + gap;
                 self.links.push(match memory.next_if(|l| (l.i, l.j) == key) {
-                    Some(link) => Link { gap, ..*link },
-                    None => Link { i: key.0, j: key.1, touching: false, gap, spring: Spring::default() },
+                    Some(link) => Link { until, ..*link },
+                    None => Link { i: key.0, j: key.1, touching: false, until, spring: Spring::default() },
                 });
             }
         }
@@ -224,9 +233,11 @@ impl BodyPair {
         let between = mb.position - ma.position;
         places.clear();
         let mut deepest: f64 = 0.0;
-        let moved = self.allowance - watch.left(setting.odometers);
+        let travelled = watch.travelled(setting.odometers);
+        watch.quiet = f64::INFINITY;
         for (k, link) in self.links.iter_mut().enumerate() {
-            if link.gap > moved && !link.touching {
+            if travelled < link.until {
+                watch.quiet = watch.quiet.min(link.until);
                 continue;
             }
             let (si, sj) = (&sa[link.i as usize], &sb[link.j as usize]);
@@ -240,9 +251,12 @@ impl BodyPair {
                     link.touching = false;
                     link.spring = Spring::default();
                 }
+                link.until = travelled + (distance2.sqrt() - sum);
+                watch.quiet = watch.quiet.min(link.until);
                 continue;
             }
             link.touching = true;
+            link.until = f64::NEG_INFINITY;
             let distance = distance2.sqrt();
             let normal = if distance > 0.0 { d / distance } else { Vector3::y() };
             let overlap = sum - distance;

@@ -222,7 +222,8 @@ impl WallList {
             return;
         }
         let law = setting.law(constants.material, boundary.material);
-        let wall = Partner { motion: surface, inverse_mass: 0.0, inverse_inertia: Vector3::zeros() };
+        let inverse_inertia = Vector3::zeros();
+        let wall = Partner { motion: surface, inverse_mass: 0.0, inverse_inertia, softness: 0.0 };
         let sides = (setting.partner(self.body as usize), wall);
         self.exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.grips);
         self.exchange.deepest = deepest;
