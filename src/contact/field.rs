@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// Lists keep sphere pairs with a gap below this share of the largest bounding radius. Small skins are used up quickly
 /// and lists are rebuilt often; large ones hold many pairs that do not touch.
-const SKIN: f64 = 0.05;
+const SKIN: f64 = 0.03;
 /// Odometers run this much fast: what a step's chord leaves of the arc, rounding included.
 const SAFETY: f64 = 1.01;
 /// Pairs that one task takes: a fixed number, so that results do not depend on the number of threads.
@@ -69,8 +69,8 @@ pub struct ContactField {
     damping: DampingMass,
     skin: f64,
     watches: Vec<PairWatch>,
-    /// The lists of `watches`, in the same order.
-    pairs: Vec<BodyPair>,
+    /// The lists of `watches`, in the same order; boxed, as they change places at every search.
+    pairs: Vec<Box<BodyPair>>,
     boundaries: Vec<Boundary>,
     walls: Vec<WallList>,
     odometers: Vec<f64>,
@@ -140,7 +140,7 @@ impl ContactField {
         let kept = near.iter().map(|&(a, b)| {
             while old.next_if(|(watch, _)| watch.key() < (a, b)).is_some() {}
             let same = old.next_if(|(watch, _)| watch.key() == (a, b));
-            same.unwrap_or_else(|| (PairWatch::new(a, b), BodyPair::new()))
+            same.unwrap_or_else(|| (PairWatch::new(a, b), Box::new(BodyPair::new())))
         });
         (self.watches, self.pairs) = kept.unzip();
     }
@@ -177,7 +177,7 @@ impl ContactField {
             dt,
         };
         let boundaries = &self.boundaries;
-        let pairs = |(watches, pairs): (&mut [PairWatch], &mut [BodyPair])| {
+        let pairs = |(watches, pairs): (&mut [PairWatch], &mut [Box<BodyPair>])| {
             let (mut near, mut places) = (Vec::new(), Vec::<Place>::new());
             let mut rebuilt = 0;
             for (watch, pair) in watches.iter_mut().zip(pairs) {

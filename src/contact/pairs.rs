@@ -1,9 +1,10 @@
 //! Two bodies near each other: the list of sphere pairs that may touch, its budget, and its forces.
 //!
 //! Most of the bed turns as a solid, so neighbours hardly move against each other. A list holds the sphere pairs with a
-//! gap below the skin and stays valid until the bodies' *relative* motion has used the skin up. Three tests of growing
-//! cost watch over that: the sum of both odometers (motion against the turning drum) against a mark; the exact
-//! relative displacement since the list was built; a new list.
+//! gap below the skin and stays valid until the bodies' *relative* motion has used the skin up. Tests of growing cost
+//! watch over that: the sum of both odometers (motion against the turning drum) against a mark; the exact relative
+//! displacement since the list was built; a new list from the candidates, which are the sphere pairs within a wider
+//! skin; new candidates from all spheres.
 
 use super::body::{BodyConstants, Outline};
 use super::law::{PairLaw, Spring};
@@ -50,10 +51,13 @@ pub(super) struct BodyPair {
     /// Sorted by (i, j).
     pub links: SmallVec<[Link; 4]>,
     pub exchange: Exchange,
-    /// Relative motion the list allows, m.
+    /// Relative motion the list allows, m, and where it was built.
     allowance: f64,
-    /// Pose of b in a's axes when the list was built.
-    built: (Vector3<f64>, Matrix3<f64>),
+    built: Relative,
+    /// Sphere pairs that were within a gap of `width`, m, at the pose `sought`; sorted.
+    candidates: Vec<(u16, u16)>,
+    width: f64,
+    sought: Relative,
 }
 
 /// What a pair reads while it works.
@@ -72,6 +76,10 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
+    fn outline(&self, body: usize) -> &Outline {
+        &self.outlines[self.bodies[body].shape]
+    }
+
     pub(super) fn law(&self, a: usize, b: usize) -> &PairLaw {
         &self.laws[a * self.materials + b]
     }
@@ -87,10 +95,26 @@ impl Setting<'_> {
     }
 }
 
-/// Lists are also searched this many skins deep, so that a pair without links knows how long it may rest.
-const LOOKOUT: f64 = 4.0;
+/// Skin of the candidates, in skins: they are found anew so many times more rarely than lists are.
+const WIDE: f64 = 5.0;
 /// A list is renewed when less than this share of its skin is left.
 const RENEW: f64 = 0.3;
+
+/// Pose of b in a's axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Relative {
+    position: Vector3<f64>,
+    rotation: Matrix3<f64>,
+}
+
+impl Relative {
+    /// How far b's sphere centres can have moved against a since `then`, m; `reach` is the farthest of them.
+    fn moved_since(&self, then: &Self, reach: f64) -> f64 {
+        // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
+        let turned = (3.0 - then.rotation.dot(&self.rotation)).max(0.0).sqrt();
+        (self.position - then.position).norm() + turned * reach
+    }
+}
 
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
@@ -123,8 +147,11 @@ impl BodyPair {
     pub(super) fn new() -> Self {
         Self {
             links: SmallVec::new(),
-            built: (Vector3::zeros(), Matrix3::zeros()),
+            built: Relative { position: Vector3::zeros(), rotation: Matrix3::zeros() },
             allowance: 0.0,
+            candidates: Vec::new(),
+            width: 0.0,
+            sought: Relative { position: Vector3::zeros(), rotation: Matrix3::zeros() },
             exchange: Exchange::default(),
         }
     }
@@ -139,93 +166,92 @@ impl BodyPair {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let travelled = watch.travelled(setting.odometers);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
-        let position = ma.rotation.tr_mul(&(mb.position - ma.position));
-        let rotation = ma.rotation.tr_mul(&mb.rotation);
-        let reach = setting.outlines[setting.bodies[b].shape].reach;
-        // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
-        let turned = (3.0 - self.built.1.dot(&rotation)).max(0.0).sqrt();
-        let left = self.allowance - (position - self.built.0).norm() - turned * reach;
+        let now = Relative {
+            position: ma.rotation.tr_mul(&(mb.position - ma.position)),
+            rotation: ma.rotation.tr_mul(&mb.rotation),
+        };
+        let (oa, ob) = (setting.outline(a), setting.outline(b));
+        let left = self.allowance - now.moved_since(&self.built, ob.reach);
         if left > RENEW * self.allowance {
             watch.mark = travelled + left;
             return false;
         }
-        self.built = (position, rotation);
-        self.rebuild((a, b), travelled, setting, near);
+        self.built = now;
+        if self.width - now.moved_since(&self.sought, ob.reach) < setting.skin {
+            self.seek(oa, ob, WIDE * setting.skin, near);
+        }
+        // What is no candidate has at least this gap.
+        self.allowance = self.width - now.moved_since(&self.sought, ob.reach);
+        self.list(oa, ob, setting.skin, travelled);
         watch.mark = travelled + self.allowance;
         watch.quiet = f64::NEG_INFINITY;
         true
     }
 
-    /// Lists all sphere pairs with a gap below the skin. `near` is scratch: b's spheres near a's box, in a's axes.
-    fn rebuild(
-        &mut self,
-        (a, b): (usize, usize),
-        travelled: f64,
-        setting: &Setting<'_>,
-        near: &mut Vec<(u16, Vector3<f64>)>,
-    ) {
-        let (position, rotation) = self.built;
-        let oa = &setting.outlines[setting.bodies[a].shape];
-        let ob = &setting.outlines[setting.bodies[b].shape];
-        let lookout = LOOKOUT * setting.skin;
-        let old = std::mem::take(&mut self.links);
-        self.allowance = position.norm() - oa.bounding_radius - ob.bounding_radius;
-        if self.allowance > lookout {
+    /// Finds the candidates at the pose `built`. `near` is scratch: b's spheres near a's box, in a's axes.
+    fn seek(&mut self, oa: &Outline, ob: &Outline, width: f64, near: &mut Vec<(u16, Vector3<f64>)>) {
+        let Relative { position, rotation } = self.built;
+        self.sought = self.built;
+        self.width = width.max(position.norm() - oa.bounding_radius - ob.bounding_radius);
+        self.candidates.clear();
+        near.clear();
+        if self.width > width {
             return;
         }
-        self.allowance = lookout;
-        near.clear();
         let (mut min, mut max) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
         for (j, sphere) in ob.spheres.iter().enumerate() {
             let center = position + rotation * sphere.center;
-            if oa.near(&center, sphere.radius + lookout) {
+            if oa.near(&center, sphere.radius + width) {
                 min = min.inf(&center.add_scalar(-sphere.radius));
                 max = max.sup(&center.add_scalar(sphere.radius));
                 near.push((j as u16, center));
             }
         }
-        if near.is_empty() {
-            return;
-        }
-        let mut memory = old.iter().filter(|l| l.touching).peekable();
         for (i, sphere) in oa.spheres.iter().enumerate() {
-            let margin = sphere.radius + self.allowance;
-            if (0..3).any(|k| {
-                sphere.center[k] < min[k] - margin || sphere.center[k] > max[k] + margin
-            }) {
+            let margin = sphere.radius + width;
+            let c = &sphere.center;
+            if near.is_empty() || (0..3).any(|k| c[k] < min[k] - margin || c[k] > max[k] + margin) {
                 continue;
             }
             for (j, center) in near.iter() {
-                let sum = sphere.radius + ob.spheres[*j as usize].radius;
-                let distance2 = (center - sphere.center).norm_squared();
-                let reach = sum + self.allowance;
-                if distance2 >= reach * reach {
-                    continue;
+                let reach = margin + ob.spheres[*j as usize].radius;
+                if (center - c).norm_squared() < reach * reach {
+                    self.candidates.push((i as u16, *j));
                 }
-                let gap = distance2.sqrt() - sum;
-                self.allowance = self.allowance.min(gap.max(setting.skin));
-                if gap >= setting.skin {
-                    continue;
-                }
-                let key = (i as u16, *j);
-                while memory.next_if(|l| (l.i, l.j) < key).is_some() {}
-                let until = travelled + gap;
-                self.links.push(match memory.next_if(|l| (l.i, l.j) == key) {
-                    Some(link) => Link { until, ..*link },
-                    None => Link { i: key.0, j: key.1, touching: false, until, spring: Spring::default() },
-                });
             }
+        }
+    }
+
+    /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
+    fn list(&mut self, oa: &Outline, ob: &Outline, skin: f64, travelled: f64) {
+        let Relative { position, rotation } = self.built;
+        let old = std::mem::take(&mut self.links);
+        let mut memory = old.iter().filter(|l| l.touching).peekable();
+        for &(i, j) in &self.candidates {
+            let (si, sj) = (&oa.spheres[i as usize], &ob.spheres[j as usize]);
+            let sum = si.radius + sj.radius;
+            let distance2 = (position + rotation * sj.center - si.center).norm_squared();
+            let reach = sum + self.allowance;
+            if distance2 >= reach * reach {
+                continue;
+            }
+            let gap = distance2.sqrt() - sum;
+            if gap >= skin {
+                self.allowance = gap;
+                continue;
+            }
+            while memory.next_if(|l| (l.i, l.j) < (i, j)).is_some() {}
+            let until = travelled + gap;
+            self.links.push(match memory.next_if(|l| (l.i, l.j) == (i, j)) {
+                Some(link) => Link { until, ..*link },
+                None => Link { i, j, touching: false, until, spring: Spring::default() },
+            });
         }
     }
 
     /// Forces of this step, left in `exchange`.
     #[inline]
-    pub(super) fn evaluate(
-        &mut self,
-        watch: &mut PairWatch,
-        setting: &Setting<'_>,
-        places: &mut Vec<Place>,
-    ) {
+    pub(super) fn evaluate(&mut self, watch: &mut PairWatch, setting: &Setting<'_>, places: &mut Vec<Place>) {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let (ca, cb) = (&setting.bodies[a], &setting.bodies[b]);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
