@@ -1,10 +1,14 @@
 //! What looks at frames: the ID-raster coater, bed statistics, the bed picture. Observers never see the world or each
 //! other, and cannot change the motion.
 
-use crate::stepping::Frame;
+mod aim;
+mod coater;
+mod zone;
 
-/// Something that looks at every frame of a run.
-pub trait Observer {
-    /// Takes note of a frame.
-    fn observe(&mut self, frame: &Frame<'_>);
-}
+pub use aim::{AimError, BedSurface};
+pub use coater::{
+    CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
+};
+pub use zone::SprayZone;
+
+pub use crate::stepping::Observer;
