@@ -66,8 +66,9 @@ pub(super) fn draw_counts(n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
     counts
 }
 
-/// Quantile of sorted values by linear interpolation between order statistics (Hyndman and Fan 1996, type 7).
-pub(super) fn quantile(sorted: &[f64], q: f64) -> f64 {
+/// Quantile of sorted values (not empty) by linear interpolation between order statistics (Hyndman and Fan 1996, Am. Stat.
+/// 50, 361, type 7).
+pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     let place = q * (sorted.len() - 1) as f64;
     let below = place as usize;
     let above = (below + 1).min(sorted.len() - 1);

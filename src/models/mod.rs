@@ -14,14 +14,16 @@ mod bootstrap;
 mod coat_map;
 mod power_law;
 mod regions;
+mod series;
 mod trial_process;
 
 pub use asymptote::{Asymptote, AsymptoteEstimate};
 pub use averaging::{BatchStatistics, Identities, TabletMoments};
-pub use bootstrap::{Bootstrap, Interval};
+pub use bootstrap::{Bootstrap, Interval, quantile};
 pub use coat_map::CoatMap;
 pub use power_law::PowerLaw;
 pub use regions::{RegionMeans, region_means};
+pub use series::SeriesRow;
 pub use trial_process::{TrialExpectation, TrialProcess};
 
 /// Why a model cannot be computed from the data it was given.
