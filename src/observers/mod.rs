@@ -3,6 +3,7 @@
 
 mod aim;
 mod coater;
+pub mod statistics;
 mod zone;
 
 pub use aim::{AimError, BedSurface};
