@@ -3,12 +3,14 @@
 
 mod aim;
 mod coater;
+mod picture;
 mod zone;
 
 pub use aim::{AimError, BedSurface};
 pub use coater::{
     CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
 };
+pub use picture::{BedPicture, Image};
 pub use zone::SprayZone;
 
 use crate::stepping::Frame;
