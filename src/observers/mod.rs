@@ -13,10 +13,4 @@ pub use coater::{
 pub use picture::{BedPicture, Image};
 pub use zone::SprayZone;
 
-use crate::stepping::Frame;
-
-/// Something that looks at every frame of a run.
-pub trait Observer {
-    /// Takes note of a frame.
-    fn observe(&mut self, frame: &Frame<'_>);
-}
+pub use crate::stepping::Observer;
