@@ -39,7 +39,7 @@ pub(super) fn time(c: &mut Checker<'_>, spec: TimeSpec, with_drum: bool) -> Time
     let step = match spec.step {
         None => StepChoice::PerContact(STEPS_PER_CONTACT),
         Some(StepSpec::PerContact(steps)) => {
-            StepChoice::PerContact(c.number(&path, Some(steps), Allowed::from(5.0).to(1e5)))
+            StepChoice::PerContact(c.number(&path, Some(steps), Allowed::from(8.0).to(1e5)))
         }
         Some(StepSpec::Fixed(step)) => {
             StepChoice::Fixed(c.number(&path, Some(step), Allowed::from(1e-12).to(longest)))
