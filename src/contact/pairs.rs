@@ -18,6 +18,8 @@ pub(super) struct Link {
     pub i: u16,
     pub j: u16,
     pub touching: bool,
+    /// Gap when the list was built, m: until the bodies have moved that far the spheres cannot touch.
+    gap: f64,
     pub spring: Spring,
 }
 
@@ -27,19 +29,29 @@ impl Remembers for Link {
     }
 }
 
-/// Two bodies, `a < b`.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct BodyPair {
+/// What is read of every near pair in every step: kept apart from the lists, which most pairs do not need.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PairWatch {
+    /// Bodies, `a < b`.
     pub a: u32,
     pub b: u32,
+    /// Sum of the odometers up to which nothing needs a look, m.
+    mark: f64,
+    /// Sphere pairs in the list.
+    pub links: u32,
+    /// Sphere pairs that touch.
+    pub contacts: u32,
+}
+
+/// The list of two bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BodyPair {
     /// Sorted by (i, j).
     pub links: Vec<Link>,
     /// Pose of b in a's axes when the list was built.
     built: (Vector3<f64>, Matrix3<f64>),
     /// Relative motion the list allows, m.
     allowance: f64,
-    /// Sum of the odometers up to which nothing needs a look, m.
-    mark: f64,
     pub exchange: Exchange,
 }
 
@@ -78,103 +90,145 @@ const LOOKOUT: f64 = 4.0;
 /// A list is renewed when less than this share of its skin is left.
 const RENEW: f64 = 0.3;
 
-impl BodyPair {
+impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
+        Self { a, b, mark: f64::NEG_INFINITY, links: 0, contacts: 0 }
+    }
+
+    pub(super) fn key(&self) -> (u32, u32) {
+        (self.a, self.b)
+    }
+
+    /// Whether the list may no longer hold all that touches.
+    #[inline]
+    pub(super) fn due(&self, odometers: &[f64]) -> bool {
+        self.left(odometers) < 0.0
+    }
+
+    /// Relative motion that the list still allows, m.
+    #[inline]
+    fn left(&self, odometers: &[f64]) -> f64 {
+        self.mark - (odometers[self.a as usize] + odometers[self.b as usize])
+    }
+}
+
+impl BodyPair {
+    pub(super) fn new() -> Self {
         Self {
-            a,
-            b,
             links: Vec::new(),
             built: (Vector3::zeros(), Matrix3::zeros()),
             allowance: 0.0,
-            mark: f64::NEG_INFINITY,
             exchange: Exchange::default(),
         }
     }
 
     /// Makes sure that every sphere pair that touches is in the list. True if the list was built anew.
-    #[inline]
-    pub(super) fn refresh(&mut self, setting: &Setting<'_>, kept: &mut Vec<u16>) -> bool {
-        let travelled = setting.odometers[self.a as usize] + setting.odometers[self.b as usize];
-        if travelled <= self.mark {
-            return false;
-        }
-        let (ma, mb) = (&setting.motions[self.a as usize], &setting.motions[self.b as usize]);
+    pub(super) fn refresh(
+        &mut self,
+        watch: &mut PairWatch,
+        setting: &Setting<'_>,
+        near: &mut Vec<(u16, Vector3<f64>)>,
+    ) -> bool {
+        let (a, b) = (watch.a as usize, watch.b as usize);
+        let travelled = setting.odometers[a] + setting.odometers[b];
+        let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let position = ma.rotation.tr_mul(&(mb.position - ma.position));
         let rotation = ma.rotation.tr_mul(&mb.rotation);
-        let reach = setting.outlines[setting.bodies[self.b as usize].shape].reach;
+        let reach = setting.outlines[setting.bodies[b].shape].reach;
         // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
         let turned = (3.0 - self.built.1.dot(&rotation)).max(0.0).sqrt();
         let left = self.allowance - (position - self.built.0).norm() - turned * reach;
         if left > RENEW * self.allowance {
-            self.mark = travelled + left;
+            watch.mark = travelled + left;
             return false;
         }
         self.built = (position, rotation);
-        self.rebuild(setting, kept);
-        self.mark = travelled + self.allowance;
+        self.rebuild((a, b), setting, near);
+        watch.mark = travelled + self.allowance;
+        watch.links = self.links.len() as u32;
         true
     }
 
-    fn rebuild(&mut self, setting: &Setting<'_>, kept: &mut Vec<u16>) {
+    /// Lists all sphere pairs with a gap below the skin. `near` is scratch: b's spheres near a's box, in a's axes.
+    fn rebuild(
+        &mut self,
+        (a, b): (usize, usize),
+        setting: &Setting<'_>,
+        near: &mut Vec<(u16, Vector3<f64>)>,
+    ) {
         let (position, rotation) = self.built;
-        let oa = &setting.outlines[setting.bodies[self.a as usize].shape];
-        let ob = &setting.outlines[setting.bodies[self.b as usize].shape];
+        let oa = &setting.outlines[setting.bodies[a].shape];
+        let ob = &setting.outlines[setting.bodies[b].shape];
         let lookout = LOOKOUT * setting.skin;
-        kept.clear();
+        let old = std::mem::take(&mut self.links);
+        self.allowance = position.norm() - oa.bounding_radius - ob.bounding_radius;
+        if self.allowance > lookout {
+            return;
+        }
+        self.allowance = lookout;
+        near.clear();
+        let (mut min, mut max) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
         for (j, sphere) in ob.spheres.iter().enumerate() {
-            if oa.near(&(position + rotation * sphere.center), sphere.radius + lookout) {
-                kept.push(j as u16);
+            let center = position + rotation * sphere.center;
+            if oa.near(&center, sphere.radius + lookout) {
+                min = min.inf(&center.add_scalar(-sphere.radius));
+                max = max.sup(&center.add_scalar(sphere.radius));
+                near.push((j as u16, center));
             }
         }
-        let old = std::mem::take(&mut self.links);
-        let mut nearest = lookout;
-        if !kept.is_empty() {
-            let mut memory = old.iter().filter(|l| l.touching).peekable();
-            for (i, sphere) in oa.spheres.iter().enumerate() {
-                let local = rotation.tr_mul(&(sphere.center - position));
-                if !ob.near(&local, sphere.radius + lookout) {
+        if near.is_empty() {
+            return;
+        }
+        let mut memory = old.iter().filter(|l| l.touching).peekable();
+        for (i, sphere) in oa.spheres.iter().enumerate() {
+            let margin = sphere.radius + self.allowance;
+            if (0..3).any(|k| {
+                sphere.center[k] < min[k] - margin || sphere.center[k] > max[k] + margin
+            }) {
+                continue;
+            }
+            for (j, center) in near.iter() {
+                let sum = sphere.radius + ob.spheres[*j as usize].radius;
+                let distance2 = (center - sphere.center).norm_squared();
+                let reach = sum + self.allowance;
+                if distance2 >= reach * reach {
                     continue;
                 }
-                for &j in kept.iter() {
-                    let other = &ob.spheres[j as usize];
-                    let reach = sphere.radius + other.radius + nearest;
-                    let distance2 = (other.center - local).norm_squared();
-                    if distance2 >= reach * reach {
-                        continue;
-                    }
-                    let gap = distance2.sqrt() - sphere.radius - other.radius;
-                    nearest = nearest.min(gap.max(setting.skin));
-                    if gap >= setting.skin {
-                        continue;
-                    }
-                    let key = (i as u16, j);
-                    while memory.next_if(|l| (l.i, l.j) < key).is_some() {}
-                    let link = match memory.next_if(|l| (l.i, l.j) == key) {
-                        Some(link) => *link,
-                        None => Link { i: key.0, j, touching: false, spring: Spring::default() },
-                    };
-                    self.links.push(link);
+                let gap = distance2.sqrt() - sum;
+                self.allowance = self.allowance.min(gap.max(setting.skin));
+                if gap >= setting.skin {
+                    continue;
                 }
+                let key = (i as u16, *j);
+                while memory.next_if(|l| (l.i, l.j) < key).is_some() {}
+                self.links.push(match memory.next_if(|l| (l.i, l.j) == key) {
+                    Some(link) => Link { gap, ..*link },
+                    None => Link { i: key.0, j: key.1, touching: false, gap, spring: Spring::default() },
+                });
             }
         }
-        self.allowance = nearest;
     }
 
     /// Forces of this step, left in `exchange`.
     #[inline]
-    pub(super) fn evaluate(&mut self, setting: &Setting<'_>, places: &mut Vec<Place>) {
-        if self.links.is_empty() {
-            self.exchange.contacts = 0;
-            return;
-        }
-        let (a, b) = (self.a as usize, self.b as usize);
+    pub(super) fn evaluate(
+        &mut self,
+        watch: &mut PairWatch,
+        setting: &Setting<'_>,
+        places: &mut Vec<Place>,
+    ) {
+        let (a, b) = (watch.a as usize, watch.b as usize);
         let (ca, cb) = (&setting.bodies[a], &setting.bodies[b]);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (sa, sb) = (&setting.outlines[ca.shape].spheres, &setting.outlines[cb.shape].spheres);
         let between = mb.position - ma.position;
         places.clear();
         let mut deepest: f64 = 0.0;
+        let moved = self.allowance - watch.left(setting.odometers);
         for (k, link) in self.links.iter_mut().enumerate() {
+            if link.gap > moved && !link.touching {
+                continue;
+            }
             let (si, sj) = (&sa[link.i as usize], &sb[link.j as usize]);
             let center_a = ma.rotation * si.center;
             let center_b = mb.rotation * sj.center;
@@ -206,8 +260,8 @@ impl BodyPair {
                 velocity: mb.velocity_at(&arm_b) - ma.velocity_at(&arm_a),
             });
         }
+        watch.contacts = places.len() as u32;
         if places.is_empty() {
-            self.exchange.contacts = 0;
             return;
         }
         let law = setting.law(ca.material, cb.material);

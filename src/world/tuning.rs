@@ -7,7 +7,7 @@ pub(super) const LENGTH_UNIT: f32 = 0.01;
 /// Half of this is added to every box of the near-pair search, m, as a multiple of the largest bounding radius: bodies
 /// may move that half before the search must run again. Measured on 770 tablets: 1 % of the step time at 0.25; larger
 /// values give more pairs to watch, smaller ones more searches.
-pub(super) const MARGIN: f64 = 0.25;
+pub(super) const MARGIN: f64 = 0.4;
 
 /// Bodies that have used this share of their margin are searched together with those that have used it all.
 pub(super) const EARLY: f64 = 0.5;
