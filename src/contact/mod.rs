@@ -1,1 +1,16 @@
-//! Hertz-Mindlin contact.
+//! Hertz-Mindlin contact on cached sphere lists.
+//!
+//! In: motions at one time level, near pairs. Out: forces and torques. It moves nothing. Forces, overlaps and spring
+//! increments are taken at one time level; each contact has one common point for both bodies, so that angular momentum is
+//! conserved to round-off.
+
+mod body;
+mod field;
+mod law;
+mod pairs;
+mod resolve;
+mod surface;
+mod walls;
+
+pub use field::{ContactField, Tally, Wrench};
+pub use law::{ContactForce, Dashpots, PairLaw, Spring, Touch, damping_ratio};

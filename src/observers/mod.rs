@@ -1,12 +1,15 @@
 //! What looks at frames: the ID-raster coater, bed statistics, the bed picture. Observers never see the world or each
 //! other, and cannot change the motion.
 
+mod aim;
+mod coater;
 pub mod statistics;
+mod zone;
 
-use crate::stepping::Frame;
+pub use aim::{AimError, BedSurface};
+pub use coater::{
+    CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
+};
+pub use zone::SprayZone;
 
-/// Something that looks at every frame of a run.
-pub trait Observer {
-    /// Takes note of a frame.
-    fn observe(&mut self, frame: &Frame<'_>);
-}
+pub use crate::stepping::Observer;

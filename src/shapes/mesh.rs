@@ -1,6 +1,7 @@
 //! Triangle surfaces of drums and boundaries.
 
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
 
 /// What a triangle of a drum belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,4 +23,79 @@ pub struct SurfaceMesh {
     pub triangles: Vec<[u32; 3]>,
     /// Part of each triangle.
     pub parts: Vec<Part>,
+}
+
+impl SurfaceMesh {
+    /// Unit normal of a triangle, pointing to the side the tablets are on.
+    pub fn normal(&self, triangle: usize) -> Vector3<f64> {
+        let [a, b, c] = self.triangles[triangle].map(|v| self.vertices[v as usize]);
+        (b - a).cross(&(c - a)).normalize()
+    }
+
+    /// Number of the smooth patch each triangle belongs to, counted from 0 in the order of the first triangle. Two
+    /// triangles of the same part that share an edge are in one patch when their normals differ by less than
+    /// `max_angle` (rad). A sphere feels one contact per patch.
+    pub fn patches(&self, max_angle: f64) -> Vec<u32> {
+        let mut edges: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+        for (t, [a, b, c]) in self.triangles.iter().enumerate() {
+            for (u, v) in [(a, b), (b, c), (c, a)] {
+                edges.entry((*u.min(v), *u.max(v))).or_default().push(t);
+            }
+        }
+        let mut root: Vec<usize> = (0..self.triangles.len()).collect();
+        for sharers in edges.values() {
+            if let [s, t] = sharers[..]
+                && self.parts[s] == self.parts[t]
+                && self.normal(s).dot(&self.normal(t)) > max_angle.cos()
+            {
+                let (s, t) = (find(&mut root, s), find(&mut root, t));
+                root[s.max(t)] = s.min(t);
+            }
+        }
+        let mut numbers = BTreeMap::new();
+        (0..root.len())
+            .map(|t| {
+                let next = numbers.len() as u32;
+                *numbers.entry(find(&mut root, t)).or_insert(next)
+            })
+            .collect()
+    }
+}
+
+/// The smallest member of the set `t` is in; shortens the way there.
+fn find(root: &mut [usize], mut t: usize) -> usize {
+    while root[t] != t {
+        root[t] = root[root[t]];
+        t = root[t];
+    }
+    t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two squares meeting at a right angle along x, in one part.
+    fn angle_iron() -> SurfaceMesh {
+        let vertices = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [1., 0., 1.], [0., 0., 1.]];
+        SurfaceMesh {
+            vertices: vertices.map(Vector3::from).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3], [0, 4, 1], [0, 5, 4]],
+            parts: vec![Part::Wall; 4],
+        }
+    }
+
+    #[test]
+    fn patches_split_at_sharp_edges_only() {
+        let mesh = angle_iron();
+        assert_eq!(mesh.patches(89f64.to_radians()), [0, 0, 1, 1]);
+        assert_eq!(mesh.patches(91f64.to_radians()), [0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn patches_split_at_parts() {
+        let mut mesh = angle_iron();
+        mesh.parts[1] = Part::Baffle(0);
+        assert_eq!(mesh.patches(1.0), [0, 1, 2, 2]);
+    }
 }

@@ -30,6 +30,20 @@ pub struct Panels {
 }
 
 impl Panels {
+    /// Panels from a closed surface wound counter-clockwise seen from outside, with areas, normals and centroids.
+    pub fn new(vertices: Vec<Vector3<f64>>, triangles: Vec<[u32; 3]>, regions: Vec<Region>) -> Self {
+        let corners = || triangles.iter().map(|t| t.map(|v| vertices[v as usize]));
+        let crosses: Vec<Vector3<f64>> = corners().map(|[a, b, c]| (b - a).cross(&(c - a))).collect();
+        Self {
+            areas: crosses.iter().map(|n| n.norm() / 2.0).collect(),
+            normals: crosses.iter().map(Vector3::normalize).collect(),
+            centroids: corners().map(|[a, b, c]| (a + b + c) / 3.0).collect(),
+            regions,
+            vertices,
+            triangles,
+        }
+    }
+
     /// Number of panels.
     pub fn len(&self) -> usize {
         self.triangles.len()
@@ -38,5 +52,20 @@ impl Panels {
     /// Whether there is no panel.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
+    }
+
+    /// Smallest angle of any panel, rad. Below 20 degrees the pixels of a panel depend on how it lies in the raster.
+    pub fn smallest_angle(&self) -> f64 {
+        self.triangles
+            .iter()
+            .map(|t| t.map(|v| self.vertices[v as usize]))
+            .flat_map(|[a, b, c]| [(b - a).angle(&(c - a)), (c - b).angle(&(a - b)), (a - c).angle(&(b - c))])
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Largest panel area over the smallest, dimensionless.
+    pub fn area_ratio(&self) -> f64 {
+        let largest = self.areas.iter().copied().fold(0.0, f64::max);
+        largest / self.areas.iter().copied().fold(f64::INFINITY, f64::min)
     }
 }

@@ -29,3 +29,9 @@ pub struct Frame<'a> {
     /// Torque about +z that the drive puts on the drum, mean since the last frame, N m.
     pub drum_torque: f64,
 }
+
+/// Something that looks at every frame of a run.
+pub trait Observer {
+    /// Takes note of a frame.
+    fn observe(&mut self, frame: &Frame<'_>);
+}

@@ -1,5 +1,18 @@
 //! The simulation: time step, integrator, guards and the loop that hands frames to observers.
 
+mod body;
+mod error;
+mod filling;
 mod frame;
+mod settling;
+mod simulation;
+mod stages;
+mod stopwatch;
+mod time_step;
 
-pub use frame::{BodyState, Frame};
+pub use error::SimulationError;
+pub use frame::{BodyState, Frame, Observer};
+pub use simulation::Simulation;
+pub use stages::{Progress, Stage};
+pub use stopwatch::{Phase, Stopwatch};
+pub use time_step::{TimeStep, hertz_overlap, hertz_time};

@@ -1,0 +1,54 @@
+//! What contact knows of each body beside its motion.
+
+use crate::shapes::{Clump, Sphere};
+use nalgebra::Vector3;
+
+/// A clump prepared for list building.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Outline {
+    pub spheres: Vec<Sphere>,
+    /// Largest distance of a sphere's far side from the centre of mass, m.
+    pub bounding_radius: f64,
+    /// Largest distance of a sphere's centre from the centre of mass, m.
+    pub reach: f64,
+    /// Box about the spheres, body axes, m.
+    pub min: Vector3<f64>,
+    /// Its other corner, m.
+    pub max: Vector3<f64>,
+}
+
+impl Outline {
+    pub(super) fn new(clump: &Clump) -> Self {
+        let corner = |sign: f64| {
+            clump.spheres.iter().map(|s| s.center + Vector3::repeat(sign * s.radius)).collect::<Vec<_>>()
+        };
+        let min = corner(-1.0).into_iter().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+        let max = corner(1.0).into_iter().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+        Self {
+            bounding_radius: clump.bounding_radius(),
+            reach: clump.spheres.iter().map(|s| s.center.norm()).fold(0.0, f64::max),
+            spheres: clump.spheres.clone(),
+            min,
+            max,
+        }
+    }
+
+    /// Whether a sphere of the given centre (body axes) and radius comes closer than `margin` to the box.
+    #[inline]
+    pub(super) fn near(&self, center: &Vector3<f64>, margin: f64) -> bool {
+        (0..3).all(|k| center[k] > self.min[k] - margin && center[k] < self.max[k] + margin)
+    }
+}
+
+/// Constants of one body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BodyConstants {
+    /// Index of its outline.
+    pub shape: usize,
+    /// Index of its material.
+    pub material: usize,
+    /// 1/kg.
+    pub inverse_mass: f64,
+    /// Inverse principal moments, 1/(kg m²).
+    pub inverse_inertia: Vector3<f64>,
+}

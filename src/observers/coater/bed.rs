@@ -1,0 +1,224 @@
+//! The bed as a view sees it: which bodies are worth drawing, and drawing them nearest first.
+
+use super::CoaterError;
+use super::drum::DrumMesh;
+use super::film::PanelIds;
+use super::raster::{IdRaster, PixelBox, ScreenVertex, Sides};
+use super::view::{Placement, View};
+use crate::shapes::{Panels, SurfaceMesh, TabletShape};
+use crate::stepping::{BodyState, Frame};
+use nalgebra::Vector3;
+use std::borrow::Borrow;
+
+/// Everything a view can see, the same in every frame but for the poses.
+#[derive(Debug, Clone)]
+pub(in crate::observers) struct Bed {
+    solids: Vec<Solid>,
+    body_shape: Vec<usize>,
+    ids: PanelIds,
+    drum: Option<DrumMesh>,
+}
+
+/// Where a bed is drawn; one per thread.
+#[derive(Debug, Clone)]
+pub(in crate::observers) struct Canvas {
+    pub(in crate::observers) raster: IdRaster,
+    vertices: Vec<ScreenVertex>,
+    candidates: Vec<Candidate>,
+}
+
+/// The panels of a shape, ready for drawing.
+#[derive(Debug, Clone)]
+struct Solid {
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    /// Middle of the box about the vertices, m.
+    middle: [f32; 3],
+    /// From the middle to the sides of the box, m.
+    half: [f32; 3],
+}
+
+/// A body that may be seen.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    body: usize,
+    nearest: f32,
+    placement: Placement,
+    area: PixelBox,
+}
+
+impl Bed {
+    /// A bed of bodies whose shapes are `body_shape[body]`, in the order of the frames.
+    ///
+    /// # Errors
+    /// [`CoaterError::NoPanels`] when a body's shape has none, [`CoaterError::TooManyPanels`].
+    pub(in crate::observers) fn new(
+        shapes: &[impl Borrow<TabletShape>],
+        body_shape: &[usize],
+        drum: Option<&SurfaceMesh>,
+    ) -> Result<Self, CoaterError> {
+        let solids = shapes
+            .iter()
+            .map(Borrow::borrow)
+            .map(|shape| {
+                let panels = shape.panels.as_ref().filter(|panels| !panels.is_empty());
+                panels.map(Solid::new).ok_or_else(|| CoaterError::NoPanels { shape: shape.name.clone() })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let ids = PanelIds::new(body_shape.iter().map(|&shape| solids[shape].triangles.len()))?;
+        Ok(Self { solids, body_shape: body_shape.to_vec(), ids, drum: drum.map(DrumMesh::new) })
+    }
+
+    pub(in crate::observers) fn ids(&self) -> &PanelIds {
+        &self.ids
+    }
+
+    /// Draws a frame as `view` sees it.
+    ///
+    /// Bodies wholly above the near plane are left out; a body that reaches through it is drawn whole.
+    pub(in crate::observers) fn draw(&self, view: &View, frame: &Frame<'_>, canvas: &mut Canvas) {
+        canvas.raster.clear(self.ids.panels() + PanelIds::OTHERS - 1);
+        if let Some(drum) = &self.drum {
+            drum.draw(view, frame.drum_angle, self.ids.panels(), &mut canvas.raster);
+        }
+        let mut candidates = std::mem::take(&mut canvas.candidates);
+        candidates.clear();
+        candidates.extend(
+            frame
+                .bodies
+                .iter()
+                .enumerate()
+                .filter_map(|(body, state)| self.candidate(view, body, state, &canvas.raster)),
+        );
+        candidates.sort_unstable_by(|a, b| a.nearest.total_cmp(&b.nearest).then(a.body.cmp(&b.body)));
+        for candidate in &candidates {
+            if !canvas.raster.hides(&candidate.area, candidate.nearest) {
+                self.draw_body(candidate.body, &candidate.placement, canvas);
+                canvas.raster.settle(&candidate.area);
+            }
+        }
+        canvas.candidates = candidates;
+    }
+
+    fn candidate(&self, view: &View, body: usize, state: &BodyState, raster: &IdRaster) -> Option<Candidate> {
+        let placement = view.place(state);
+        let solid = &self.solids[self.body_shape[body]];
+        let middle = placement.apply(solid.middle);
+        let reach: [f32; 3] = std::array::from_fn(|k| {
+            (0..3).map(|axis| placement.turn[k][axis].abs() * solid.half[axis]).sum()
+        });
+        if middle[2] + reach[2] < 0.0 {
+            return None;
+        }
+        let area = raster.pixels_between(
+            [middle[0] - reach[0], middle[1] - reach[1]],
+            [middle[0] + reach[0], middle[1] + reach[1]],
+        )?;
+        // A hair nearer than computed, so that rounding never hides a body at the same depth.
+        let nearest = ((middle[2] - reach[2]) - 1e-5 * reach[2] - 1e-6 * middle[2].abs()).max(0.0);
+        Some(Candidate { body, nearest, placement, area })
+    }
+
+    fn draw_body(&self, body: usize, placement: &Placement, canvas: &mut Canvas) {
+        let solid = &self.solids[self.body_shape[body]];
+        canvas.vertices.clear();
+        canvas
+            .vertices
+            .extend(solid.vertices.iter().map(|&vertex| ScreenVertex::new(placement.apply(vertex))));
+        for (id, triangle) in (self.ids.id(body, 0)..).zip(&solid.triangles) {
+            canvas.raster.draw(triangle.map(|vertex| canvas.vertices[vertex as usize]), id, Sides::Front);
+        }
+    }
+}
+
+impl Canvas {
+    pub(in crate::observers) fn new(pixels: [u32; 2]) -> Self {
+        Self { raster: IdRaster::new(pixels), vertices: Vec::new(), candidates: Vec::new() }
+    }
+}
+
+impl Solid {
+    fn new(panels: &Panels) -> Self {
+        let fold = |pick: fn(f64, f64) -> f64| {
+            panels.vertices.iter().fold(panels.vertices[0], |sides, vertex| sides.zip_map(vertex, pick))
+        };
+        let (min, max) = (fold(f64::min), fold(f64::max));
+        let single = |v: &Vector3<f64>| v.data.0[0].map(|x| x as f32);
+        Self {
+            vertices: panels.vertices.iter().map(single).collect(),
+            triangles: panels.triangles.clone(),
+            middle: single(&((min + max) / 2.0)),
+            half: single(&((max - min) / 2.0)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observers::SprayZone;
+    use crate::observers::coater::tests::{cube, tumbled};
+    use crate::observers::coater::view::jitter;
+
+    fn zone() -> SprayZone {
+        SprayZone {
+            center: Vector3::new(0.0, 0.0, 0.0),
+            spanwise: Vector3::z(),
+            streamwise: -Vector3::x(),
+            normal: Vector3::y(),
+            extent: [0.06, 0.03],
+            distance: 0.02,
+        }
+    }
+
+    /// Every body, near or not, hidden or not, in the order given.
+    fn draw_all(bed: &Bed, view: &View, bodies: &[BodyState], order: &[usize], canvas: &mut Canvas) {
+        canvas.raster.clear(bed.ids.panels() + PanelIds::OTHERS - 1);
+        for &body in order {
+            let placement = view.place(&bodies[body]);
+            let reach = bed.solids[0].half.iter().map(|h| h * h).sum::<f32>().sqrt();
+            if placement.at[2] > -reach {
+                bed.draw_body(body, &placement, canvas);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_left_out_would_not_have_been_seen() {
+        let cubes = [cube(0.01)];
+        // All below the nozzle: the reference above drops bodies by a coarser rule.
+        let bodies = tumbled(120, [0.05, 0.03, 0.06], 1);
+        let bed = Bed::new(&cubes, &vec![0; bodies.len()], None).unwrap();
+        for index in 0..8 {
+            let view = View::new(&zone(), [200, 100], jitter(index));
+            let frame = Frame { index, time: 0.0, bodies: &bodies, drum_angle: 0.0, drum_torque: 0.0 };
+            let (mut culled, mut whole) = (Canvas::new([200, 100]), Canvas::new([200, 100]));
+            bed.draw(&view, &frame, &mut culled);
+            let order: Vec<usize> = (0..bodies.len()).rev().collect();
+            draw_all(&bed, &view, &bodies, &order, &mut whole);
+            assert!(culled.candidates.len() < bodies.len());
+            assert!(culled.raster.ids() == whole.raster.ids(), "frame {index}");
+        }
+    }
+
+    #[test]
+    fn a_body_through_the_near_plane_is_whole_and_one_above_it_is_gone() {
+        let cubes = [cube(0.01)];
+        let bed = Bed::new(&cubes, &[0, 0], None).unwrap();
+        let at = |y: f64, z: f64| {
+            let mut body = tumbled(1, [0.0; 3], 1)[0];
+            body.position = Vector3::new(0.0, y, z);
+            body.orientation = nalgebra::UnitQuaternion::identity();
+            body
+        };
+        let bodies = [at(0.02, -0.015), at(0.0251, 0.015)];
+        let frame = Frame { index: 0, time: 0.0, bodies: &bodies, drum_angle: 0.0, drum_torque: 0.0 };
+        let mut canvas = Canvas::new([60, 30]);
+        bed.draw(&View::new(&zone(), [60, 30], [0.0; 2]), &frame, &mut canvas);
+        let seen = |body: usize| {
+            let ids = bed.ids.of_body(body);
+            canvas.raster.ids().iter().filter(|&&id| ids.contains(&(id as usize))).count()
+        };
+        assert_eq!((seen(0), seen(1)), (100, 0));
+    }
+}

@@ -1,0 +1,88 @@
+//! What has been counted: pixels of each panel, and those that missed the tablets.
+
+use super::film::PanelIds;
+use serde::{Deserialize, Serialize};
+
+/// Counts summed over frames. In every frame they add up to the pixels of the raster.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CoatLedger {
+    /// Counts of every panel of every body, then of wall, end walls, baffles and nothing.
+    counts: Vec<u64>,
+    frames: u64,
+}
+
+/// Counts that hit no tablet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct SprayLoss {
+    /// On the drum's wall.
+    pub wall: u64,
+    /// On the end walls.
+    pub ends: u64,
+    /// On baffles.
+    pub baffles: u64,
+    /// On nothing at all.
+    pub empty: u64,
+}
+
+/// A body seen in a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Exposure {
+    /// Its place in the frame's list of bodies.
+    pub body: usize,
+    /// How many counts it received in this frame.
+    pub counts: u64,
+}
+
+impl CoatLedger {
+    pub(super) fn new(ids: &PanelIds) -> Self {
+        Self { counts: vec![0; ids.panels() as usize + PanelIds::OTHERS as usize], frames: 0 }
+    }
+
+    /// Adds a frame's picture; replaces `exposed` by the bodies in it, in their order.
+    pub(super) fn add(&mut self, seen: &[u32], ids: &PanelIds, exposed: &mut Vec<Exposure>) {
+        exposed.clear();
+        // Neighbouring pixels mostly show the same body: it is looked up when it changes.
+        let (mut body, mut numbers, mut run) = (None, 0..0_u32, 0);
+        for &id in seen {
+            self.counts[id as usize] += 1;
+            if !numbers.contains(&id) {
+                exposed.extend(body.map(|body| Exposure { body, counts: run }));
+                run = 0;
+                body = ids.body(id);
+                numbers = body.map_or(ids.panels()..u32::MAX, |body| ids.numbers(body));
+            }
+            run += 1;
+        }
+        exposed.extend(body.map(|body| Exposure { body, counts: run }));
+        exposed.sort_unstable_by_key(|exposure| exposure.body);
+        exposed.dedup_by(|next, kept| {
+            let same = next.body == kept.body;
+            kept.counts += if same { next.counts } else { 0 };
+            same
+        });
+        self.frames += 1;
+    }
+
+    /// How many frames have been counted.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Counts of what is not a tablet.
+    pub fn loss(&self) -> SprayLoss {
+        let [.., wall, ends, baffles, empty] = self.counts[..] else {
+            unreachable!("a ledger ends with these four")
+        };
+        SprayLoss { wall, ends, baffles, empty }
+    }
+
+    /// Counts of all panels, body after body.
+    pub(super) fn counts(&self) -> &[u64] {
+        &self.counts[..self.counts.len() - PanelIds::OTHERS as usize]
+    }
+
+    /// All counts, tablets or not.
+    pub fn total(&self) -> u64 {
+        self.counts.iter().sum()
+    }
+}

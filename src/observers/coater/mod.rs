@@ -1,0 +1,209 @@
+//! The ID-raster coater: which panels of which tablets face the spray, counted in pixels.
+//!
+//! Every frame is drawn as the nozzle sees it, each panel under its own number, and the pixels of each number are
+//! counted: tablets in front shade those behind, as they do in the pan. In come poses, the shapes' panels, the drum's
+//! surface and the spray zone; out go counts, which [`film_volume_per_count`] and [`film_thickness`] turn into film.
+//! Drops, air and drying are not modelled: the spray falls straight along the zone's normal.
+//!
+//! Method: Freireich et al. 2015 (see [`PanelIds`]), there with OpenGL colours.
+
+mod bed;
+mod drum;
+mod film;
+mod ledger;
+mod raster;
+mod view;
+
+pub(super) use bed::{Bed, Canvas};
+pub use film::{PanelIds, film_thickness, film_volume_per_count};
+pub use ledger::{CoatLedger, Exposure, SprayLoss};
+pub(super) use view::View;
+
+use super::{Observer, SprayZone};
+use crate::scene::Spray;
+use crate::shapes::{SurfaceMesh, TabletShape};
+use crate::stepping::Frame;
+use std::borrow::Borrow;
+
+/// Counts what the spray hits, frame by frame.
+#[derive(Debug, Clone)]
+pub struct Coater {
+    bed: Bed,
+    zone: SprayZone,
+    pixels: [u32; 2],
+    canvas: Canvas,
+    ledger: CoatLedger,
+    exposed: Vec<Exposure>,
+}
+
+/// Why a coater cannot be made.
+#[derive(Debug, thiserror::Error, PartialEq, Eq)]
+pub enum CoaterError {
+    /// A shape that is to be coated has no panels.
+    #[error("shape `{shape}` has no panels to coat")]
+    NoPanels {
+        /// The shape's name.
+        shape: String,
+    },
+    /// More panels than numbers.
+    #[error("{panels} panels in all are more than the {limit} that can be numbered")]
+    TooManyPanels {
+        /// Panels of all bodies together.
+        panels: u64,
+        /// Largest number of panels.
+        limit: u64,
+    },
+    /// Counts of another bed.
+    #[error("the stored counts belong to another bed: {found} entries where this one has {expected}")]
+    ForeignLedger {
+        /// Entries of the ledger.
+        found: usize,
+        /// Entries that this coater needs.
+        expected: usize,
+    },
+}
+
+impl Coater {
+    /// A coater for bodies of shapes `body_shape[body]`, in the order of the frames, sprayed in `zone` and rastered as
+    /// `spray` says. Without a `drum`, whatever passes the tablets is counted as empty.
+    ///
+    /// # Errors
+    /// [`CoaterError::NoPanels`], [`CoaterError::TooManyPanels`].
+    pub fn new(
+        shapes: &[impl Borrow<TabletShape>],
+        body_shape: &[usize],
+        spray: &Spray,
+        zone: SprayZone,
+        drum: Option<&SurfaceMesh>,
+    ) -> Result<Self, CoaterError> {
+        let bed = Bed::new(shapes, body_shape, drum)?;
+        let ledger = CoatLedger::new(bed.ids());
+        Ok(Self {
+            bed,
+            zone,
+            pixels: spray.pixels,
+            canvas: Canvas::new(spray.pixels),
+            ledger,
+            exposed: Vec::new(),
+        })
+    }
+
+    /// The numbers of the panels.
+    pub fn ids(&self) -> &PanelIds {
+        self.bed.ids()
+    }
+
+    /// Where it sprays.
+    pub fn zone(&self) -> &SprayZone {
+        &self.zone
+    }
+
+    /// Counts of the panels of a body over all frames, in the order of its shape's panels.
+    pub fn counts(&self, body: usize) -> &[u64] {
+        &self.ledger.counts()[self.bed.ids().of_body(body)]
+    }
+
+    /// All that has been counted; what a checkpoint has to keep.
+    pub fn ledger(&self) -> &CoatLedger {
+        &self.ledger
+    }
+
+    /// Goes on from counts kept earlier.
+    ///
+    /// # Errors
+    /// [`CoaterError::ForeignLedger`] when they are not those of as many panels.
+    pub fn resume(&mut self, ledger: CoatLedger) -> Result<(), CoaterError> {
+        let [found, expected] = [&ledger, &self.ledger].map(|ledger| ledger.counts().len());
+        if found != expected {
+            return Err(CoaterError::ForeignLedger { found, expected });
+        }
+        self.ledger = ledger;
+        Ok(())
+    }
+
+    /// The bodies seen in the last frame, in their order, and how much of each.
+    pub fn exposed(&self) -> &[Exposure] {
+        &self.exposed
+    }
+
+    /// Counts that every frame adds up to.
+    pub fn counts_per_frame(&self) -> u64 {
+        self.pixels.map(u64::from).iter().product()
+    }
+
+    /// Area of the zone that one pixel stands for, m².
+    pub fn pixel_area(&self) -> f64 {
+        self.zone.extent.iter().product::<f64>() / self.counts_per_frame() as f64
+    }
+}
+
+impl Observer for Coater {
+    fn observe(&mut self, frame: &Frame<'_>) {
+        let view = View::new(&self.zone, self.pixels, view::jitter(frame.index));
+        self.bed.draw(&view, frame, &mut self.canvas);
+        self.ledger.add(self.canvas.raster.ids(), self.bed.ids(), &mut self.exposed);
+    }
+}
+
+#[cfg(test)]
+pub(in crate::observers) mod tests {
+    use super::*;
+    use crate::shapes::{Clump, Panels, Region, Sphere};
+    use crate::stepping::BodyState;
+    use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// A cube of the given side in twelve panels.
+    pub(in crate::observers) fn cube(side: f64) -> TabletShape {
+        let corner =
+            |k: usize| Vector3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64).add_scalar(-0.5);
+        let vertices: Vec<_> = (0..8).map(|k| corner(k) * side).collect();
+        let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles: Vec<[u32; 3]> =
+            faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect();
+        let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
+        let doubled = |t: &[u32; 3]| {
+            let [a, b, c] = corners(t);
+            (b - a).cross(&(c - a))
+        };
+        TabletShape {
+            name: "cube".into(),
+            volume: side.powi(3),
+            area: 6.0 * side * side,
+            inertia_per_mass: Vector3::repeat(side * side / 6.0),
+            clump: Clump { spheres: vec![Sphere { center: Vector3::zeros(), radius: side / 2.0 }] },
+            panels: Some(Panels {
+                regions: vec![Region::Cap; 12],
+                areas: triangles.iter().map(|t| doubled(t).norm() / 2.0).collect(),
+                normals: triangles.iter().map(|t| doubled(t).normalize()).collect(),
+                centroids: triangles.iter().map(|t| corners(t).iter().sum::<Vector3<f64>>() / 3.0).collect(),
+                triangles,
+                vertices,
+            }),
+        }
+    }
+
+    /// Bodies at random places of a box about the origin, turned at random.
+    pub(in crate::observers) fn tumbled(count: usize, half: [f64; 3], seed: u64) -> Vec<BodyState> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut uniform = move || random.random_range(-1.0..1.0);
+        (0..count)
+            .map(|_| BodyState {
+                position: Vector3::new(
+                    half[0] * uniform(),
+                    half[1] * uniform() - half[1],
+                    half[2] * uniform(),
+                ),
+                orientation: UnitQuaternion::new_normalize(Quaternion::new(
+                    uniform(),
+                    uniform(),
+                    uniform(),
+                    uniform(),
+                )),
+                velocity: Vector3::zeros(),
+                spin: Vector3::zeros(),
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,331 @@
+//! The loop.
+
+use super::body::Body;
+use super::error::SimulationError;
+use super::frame::BodyState;
+use super::stopwatch::{Phase, Stopwatch};
+use super::time_step::TimeStep;
+use crate::contact::{ContactField, Tally, Wrench};
+use crate::scene::{BoundarySurface, Scene};
+use crate::shapes::{SurfaceMesh, TabletShape, drum_mesh};
+use crate::world::{Motion, World};
+use nalgebra::{Rotation3, Vector3};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// Overlap over radius above which a sphere is as good as through.
+const MOST_OVERLAP: f64 = 1.0;
+
+/// A run: bodies, surfaces, contacts and the clock.
+pub struct Simulation {
+    pub(super) scene: Scene,
+    shapes: Vec<TabletShape>,
+    drum: Option<SurfaceMesh>,
+    time_step: TimeStep,
+    step: u64,
+    world: World,
+    field: ContactField,
+    bodies: Vec<Body>,
+    /// Shape of each body.
+    kinds: Vec<usize>,
+    pub(super) motions: Vec<Motion>,
+    surfaces: Vec<Motion>,
+    /// How many of the surfaces are meshes; they come first.
+    meshes: usize,
+    /// Velocity and spin of each surface.
+    drives: Vec<(Vector3<f64>, Vector3<f64>)>,
+    wrenches: Vec<Wrench>,
+    pub(super) rng: ChaCha8Rng,
+    torque_sum: f64,
+    torque_steps: u64,
+    deepest: f64,
+    tally: Tally,
+    pub(super) stopwatch: Stopwatch,
+}
+
+impl Simulation {
+    /// Builds everything a scene needs; free bodies are placed, batches wait for [`Simulation::fill`].
+    ///
+    /// # Errors
+    /// A shape that cannot be built.
+    pub fn new(scene: &Scene) -> Result<Self, SimulationError> {
+        let shapes = scene
+            .shapes
+            .iter()
+            .map(|shape| TabletShape::build(shape, scene.spray.is_some()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut simulation = Self {
+            time_step: TimeStep::choose(scene, &shapes),
+            field: ContactField::new(scene, &shapes),
+            drum: scene.drum.as_ref().map(drum_mesh),
+            scene: scene.clone(),
+            shapes,
+            step: 0,
+            world: World::new(),
+            bodies: Vec::new(),
+            kinds: Vec::new(),
+            motions: Vec::new(),
+            surfaces: Vec::new(),
+            meshes: 0,
+            drives: Vec::new(),
+            wrenches: Vec::new(),
+            rng: ChaCha8Rng::seed_from_u64(scene.seed),
+            torque_sum: 0.0,
+            torque_steps: 0,
+            deepest: 0.0,
+            tally: Tally::default(),
+            stopwatch: Stopwatch::default(),
+        };
+        simulation.add_surfaces();
+        for body in &scene.bodies {
+            let state = BodyState {
+                position: body.position,
+                orientation: body.orientation,
+                velocity: body.velocity,
+                spin: body.spin,
+            };
+            simulation.add_body(body.shape, body.material, body.mass, &state);
+        }
+        Ok(simulation)
+    }
+
+    fn add_surfaces(&mut self) {
+        if let (Some(drum), Some(mesh)) = (&self.scene.drum, &self.drum) {
+            let index = self.world.add_surface(mesh);
+            self.field.add_mesh(mesh, index, drum.material, true);
+            self.drives.push((Vector3::zeros(), Vector3::z() * drum.speed));
+            self.meshes += 1;
+        }
+        for boundary in &self.scene.boundaries {
+            let drive = (boundary.velocity, boundary.spin);
+            match &boundary.surface {
+                BoundarySurface::Plane { point, normal } => {
+                    self.field.add_plane(*point, *normal, boundary.material);
+                    self.drives.push(drive);
+                }
+                BoundarySurface::Box { min, max } => {
+                    for axis in 0..3 {
+                        let normal = Vector3::ith_axis(axis).into_inner();
+                        self.field.add_plane(*min, normal, boundary.material);
+                        self.field.add_plane(*max, -normal, boundary.material);
+                        self.drives.extend([drive; 2]);
+                    }
+                }
+                BoundarySurface::Mesh { .. } => {}
+            }
+        }
+        self.surfaces = vec![Motion::at_rest(); self.drives.len()];
+        self.move_surfaces();
+    }
+
+    pub(super) fn add_body(&mut self, shape: usize, material: usize, mass: f64, state: &BodyState) {
+        let inertia = self.shapes[shape].inertia_per_mass * mass;
+        let rotation = state.orientation.to_rotation_matrix().into_inner();
+        let motion =
+            Motion { position: state.position, rotation, velocity: state.velocity, spin: state.spin };
+        self.world.add_tablet(&self.shapes[shape].clump, mass, &inertia, &motion);
+        self.field.add_body(shape, material, mass, &inertia);
+        let momentum = rotation * rotation.tr_mul(&state.spin).component_mul(&inertia);
+        self.bodies.push(Body {
+            mass,
+            inertia,
+            orientation: state.orientation,
+            velocity: state.velocity,
+            momentum,
+            force: self.scene.gravity * mass,
+            torque: Vector3::zeros(),
+        });
+        self.kinds.push(shape);
+        self.motions.push(motion);
+        self.wrenches.push(Wrench { force: Vector3::zeros(), torque: Vector3::zeros() });
+    }
+
+    /// One time step: kick, drift, forces at the new time level, kick.
+    fn advance(&mut self) -> Result<(), SimulationError> {
+        let dt = self.time_step.step;
+        self.drift(dt);
+        self.stopwatch.lap(Phase::Motion);
+        if self.world.must_search(&self.motions) {
+            let near = self.world.search(&self.motions, &self.surfaces[..self.meshes]);
+            self.field.set_near(near);
+            self.stopwatch.lap(Phase::Search);
+        }
+        for (wrench, body) in self.wrenches.iter_mut().zip(&self.bodies) {
+            *wrench = Wrench { force: self.scene.gravity * body.mass, torque: Vector3::zeros() };
+        }
+        self.tally =
+            self.field.add_forces(&self.motions, &self.surfaces, &self.world, dt, &mut self.wrenches);
+        self.stopwatch.lap(Phase::Contact);
+        for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
+            (body.force, body.torque) = (wrench.force, wrench.torque);
+            body.kick(0.5 * dt);
+        }
+        self.note_step();
+        self.guard()
+    }
+
+    fn drift(&mut self, dt: f64) {
+        let carrier = Vector3::z() * self.scene.drum.as_ref().map_or(0.0, |d| d.speed);
+        for (k, (body, motion)) in self.bodies.iter_mut().zip(&mut self.motions).enumerate() {
+            body.kick(0.5 * dt);
+            let middle = motion.position + body.velocity * (0.5 * dt);
+            let (moved, turned) = body.drift(motion, dt);
+            let moved = (moved - carrier.cross(&middle) * dt).norm();
+            self.field.travel(k, moved, (turned - carrier * dt).norm());
+        }
+        self.step += 1;
+        self.move_surfaces();
+    }
+
+    fn move_surfaces(&mut self) {
+        let time = self.clock();
+        for (motion, (velocity, spin)) in self.surfaces.iter_mut().zip(&self.drives) {
+            *motion = Motion {
+                position: velocity * time,
+                rotation: Rotation3::new(spin * time).into_inner(),
+                velocity: *velocity,
+                spin: *spin,
+            };
+        }
+    }
+
+    fn note_step(&mut self) {
+        if self.scene.drum.is_some() {
+            self.torque_sum -= self.field.surface_torque(0).z;
+        }
+        self.torque_steps += 1;
+        self.deepest = self.deepest.max(self.tally.deepest);
+    }
+
+    /// Stops a run that has gone wrong while its last good state is still at hand.
+    fn guard(&self) -> Result<(), SimulationError> {
+        if self.tally.deepest > MOST_OVERLAP {
+            return Err(SimulationError::Overlap { time: self.clock(), ratio: self.tally.deepest });
+        }
+        Ok(())
+    }
+
+    /// Checks that every body is finite and inside the drum; done at every frame.
+    pub(super) fn check_bodies(&self) -> Result<(), SimulationError> {
+        for (body, motion) in self.motions.iter().enumerate() {
+            if !(motion.position.iter().chain(&motion.velocity).chain(&motion.spin)).all(|x| x.is_finite()) {
+                return Err(SimulationError::NotFinite { body, time: self.clock() });
+            }
+            if let Some(drum) = &self.scene.drum {
+                let p = motion.position;
+                if p.xy().norm() > 0.5 * drum.diameter || p.z.abs() > 0.5 * drum.width {
+                    return Err(SimulationError::Lost { body, time: self.clock() });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Advances by one frame interval.
+    pub(super) fn advance_frame(&mut self) -> Result<(), SimulationError> {
+        self.torque_sum = 0.0;
+        self.torque_steps = 0;
+        for _ in 0..self.steps_per_frame() {
+            self.advance()?;
+        }
+        self.check_bodies()
+    }
+
+    /// Simulated time since the start, s.
+    pub fn clock(&self) -> f64 {
+        self.step as f64 * self.time_step.step
+    }
+
+    /// Steps taken since the start.
+    pub fn steps(&self) -> u64 {
+        self.step
+    }
+
+    fn steps_per_frame(&self) -> u64 {
+        (self.scene.time.frame_interval / self.time_step.step).round() as u64
+    }
+
+    /// The scene being run.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The shapes of the scene, in its order.
+    pub fn shapes(&self) -> &[TabletShape] {
+        &self.shapes
+    }
+
+    /// Shape index of each body.
+    pub fn body_shapes(&self) -> &[usize] {
+        &self.kinds
+    }
+
+    /// Mass of each body, kg.
+    pub fn masses(&self) -> Vec<f64> {
+        self.bodies.iter().map(|b| b.mass).collect()
+    }
+
+    /// The drum's mesh in its own axes.
+    pub fn drum(&self) -> Option<&SurfaceMesh> {
+        self.drum.as_ref()
+    }
+
+    /// The time step and its figures.
+    pub fn time_step(&self) -> &TimeStep {
+        &self.time_step
+    }
+
+    /// Contacts of the last step.
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+
+    /// Largest overlap so far over the smaller sphere's radius, dimensionless.
+    pub fn deepest_overlap(&self) -> f64 {
+        self.deepest
+    }
+
+    /// Where the run time went.
+    pub fn stopwatch(&self) -> &Stopwatch {
+        &self.stopwatch
+    }
+
+    /// Angle the drum has turned about +z, rad.
+    pub fn drum_angle(&self) -> f64 {
+        self.scene.drum.as_ref().map_or(0.0, |d| d.speed * self.clock())
+    }
+
+    /// Mean torque of the drive over the last frame, N m.
+    pub fn drum_torque(&self) -> f64 {
+        if self.torque_steps == 0 { 0.0 } else { self.torque_sum / self.torque_steps as f64 }
+    }
+
+    /// Pose and motion of all bodies at the present step.
+    pub fn states(&self) -> Vec<BodyState> {
+        let state = |(body, motion): (&Body, &Motion)| BodyState {
+            position: motion.position,
+            orientation: body.orientation,
+            velocity: body.velocity,
+            spin: body.spin_of(&motion.rotation, &body.momentum),
+        };
+        self.bodies.iter().zip(&self.motions).map(state).collect()
+    }
+
+    /// Fingerprint of positions, orientations, velocities, momenta and springs, bit by bit.
+    pub fn state_hash(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        let mut put = |x: f64| {
+            hasher.update(&x.to_bits().to_le_bytes());
+        };
+        for (body, motion) in self.bodies.iter().zip(&self.motions) {
+            motion.position.iter().for_each(|x| put(*x));
+            body.orientation.coords.iter().for_each(|x| put(*x));
+            body.velocity.iter().chain(&body.momentum).for_each(|x| put(*x));
+        }
+        for (a, b, i, j, stretch) in self.field.springs() {
+            [a, b, i, j].iter().for_each(|k| put(f64::from(*k)));
+            stretch.iter().for_each(|x| put(*x));
+        }
+        hasher.finalize().to_hex().to_string()
+    }
+}

@@ -1,0 +1,50 @@
+//! Where the run time goes.
+
+use std::time::{Duration, Instant};
+
+/// Parts of the work whose time is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Moving and kicking bodies.
+    Motion,
+    /// Search for near bodies.
+    Search,
+    /// Contact lists and forces.
+    Contact,
+    /// Observers.
+    Observers,
+}
+
+/// Wall time per phase.
+#[derive(Debug, Clone)]
+pub struct Stopwatch {
+    last: Instant,
+    spent: [Duration; 4],
+}
+
+impl Default for Stopwatch {
+    fn default() -> Self {
+        Self { last: Instant::now(), spent: [Duration::ZERO; 4] }
+    }
+}
+
+impl Stopwatch {
+    /// Restarts the running interval without counting it.
+    pub(super) fn skip(&mut self) {
+        self.last = Instant::now();
+    }
+
+    /// Counts the time since the last call for `phase`.
+    #[inline]
+    pub(super) fn lap(&mut self, phase: Phase) {
+        let now = Instant::now();
+        self.spent[phase as usize] += now - self.last;
+        self.last = now;
+    }
+
+    /// Seconds per phase, by name.
+    pub fn seconds(&self) -> [(&'static str, f64); 4] {
+        let s = self.spent.map(|d| d.as_secs_f64());
+        [("motion", s[0]), ("near_search", s[1]), ("contact", s[2]), ("observers", s[3])]
+    }
+}

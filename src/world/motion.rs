@@ -1,0 +1,35 @@
+//! Pose and velocity of a body, as contact needs them at one time level.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Where a body is and how it moves, in f64. Rapier holds the same poses in f32 for its near-pair search only:
+/// f32 near 0.2 m resolves 2e-8 m, which is 2 % of a 1 µm overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Centre of mass, m.
+    pub position: Vector3<f64>,
+    /// Turns body axes to world axes.
+    pub rotation: Matrix3<f64>,
+    /// Velocity of the centre of mass, m/s.
+    pub velocity: Vector3<f64>,
+    /// Angular velocity, world axes, rad/s.
+    pub spin: Vector3<f64>,
+}
+
+impl Motion {
+    /// At rest at the origin with body axes along world axes.
+    pub fn at_rest() -> Self {
+        Self {
+            position: Vector3::zeros(),
+            rotation: Matrix3::identity(),
+            velocity: Vector3::zeros(),
+            spin: Vector3::zeros(),
+        }
+    }
+
+    /// Velocity of the body's point at `arm` from its centre of mass (world axes), m/s.
+    #[inline]
+    pub fn velocity_at(&self, arm: &Vector3<f64>) -> Vector3<f64> {
+        self.velocity + self.spin.cross(arm)
+    }
+}

@@ -1,0 +1,297 @@
+//! The coater against answers known in closed form.
+
+#[path = "support/solids.rs"]
+mod solids;
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use pancoat::observers::{Coater, Observer, PanelIds, SprayZone, film_thickness};
+use pancoat::scene::{Aim, Deposit, Spray};
+use pancoat::shapes::{Part, SurfaceMesh, TabletShape};
+use pancoat::stepping::{BodyState, Frame};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use solids::{icosphere, round_tablet};
+
+const EXTENT: [f64; 2] = [0.08, 0.04];
+
+/// Sprays downwards on the origin from 50 mm above; columns run along z, rows along −x.
+fn coater(
+    shapes: &[TabletShape],
+    body_shape: &[usize],
+    pixels: [u32; 2],
+    drum: Option<&SurfaceMesh>,
+) -> Coater {
+    let spray = Spray {
+        spanwise: EXTENT[0],
+        streamwise: EXTENT[1],
+        distance: 0.05,
+        aim: Aim::Bed,
+        pixels,
+        deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+    };
+    let zone = SprayZone::facing(Vector3::zeros(), Vector3::y(), &spray);
+    Coater::new(shapes, body_shape, &spray, zone, drum).unwrap()
+}
+
+fn body(x: f64, y: f64, z: f64, orientation: UnitQuaternion<f64>) -> BodyState {
+    BodyState {
+        position: Vector3::new(x, y, z),
+        orientation,
+        velocity: Vector3::zeros(),
+        spin: Vector3::zeros(),
+    }
+}
+
+fn turned_at_random(random: &mut ChaCha8Rng) -> UnitQuaternion<f64> {
+    // Four normal numbers, each a sum of uniform ones, point evenly over the sphere of rotations.
+    let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+    UnitQuaternion::new_normalize(Quaternion::new(normal(), normal(), normal(), normal()))
+}
+
+fn spray(coater: &mut Coater, frames: std::ops::Range<u64>, bodies: &[BodyState], drum_angle: f64) {
+    for index in frames {
+        coater.observe(&Frame { index, time: 0.0, bodies, drum_angle, drum_torque: 0.0 });
+    }
+}
+
+/// A loose heap of tablets in and around the zone.
+fn heap(count: usize, seed: u64) -> Vec<BodyState> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    (0..count)
+        .map(|_| {
+            let [x, y, z] = [0.03, 0.01, 0.06].map(|half| half * random.random_range(-1.0..1.0));
+            body(x, y - 0.01, z, turned_at_random(&mut random))
+        })
+        .collect()
+}
+
+/// An open tube about the z axis with a vane along the bottom and one end wall.
+fn tube(radius: f64, width: f64) -> SurfaceMesh {
+    let at = |k: u32, z: f64| {
+        let (s, c) = (f64::from(k) / 60.0 * std::f64::consts::TAU).sin_cos();
+        Vector3::new(radius * c, radius * s, z)
+    };
+    let mut mesh = SurfaceMesh { vertices: Vec::new(), triangles: Vec::new(), parts: Vec::new() };
+    let mut quad = |corners: [Vector3<f64>; 4], part| {
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(corners);
+        mesh.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|v| v + first)));
+        mesh.parts.extend([part; 2]);
+    };
+    let (back, front) = (-width / 2.0, width / 2.0);
+    for k in 0..60 {
+        quad([at(k, back), at(k + 1, back), at(k + 1, front), at(k, front)], Part::Wall);
+        let center = Vector3::new(0.0, 0.0, back);
+        quad([center, at(k, back), at(k + 1, back), center], Part::End(0));
+    }
+    let vane = |x: f64, z: f64| Vector3::new(x, -0.9 * radius, z);
+    quad([vane(-0.005, back), vane(0.005, back), vane(0.005, front), vane(-0.005, front)], Part::Baffle(0));
+    mesh
+}
+
+/// Area-weighted mean and variance of thickness (Eqs. 9 and 10).
+fn moments(thickness: &[f64], areas: &[f64]) -> (f64, f64) {
+    let area: f64 = areas.iter().sum();
+    let mean = thickness.iter().zip(areas).map(|(h, a)| h * a).sum::<f64>() / area;
+    let variance = thickness.iter().zip(areas).map(|(h, a)| (h - mean).powi(2) * a).sum::<f64>() / area;
+    (mean, variance)
+}
+
+#[test]
+fn every_frame_adds_up_to_its_pixels() {
+    let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5), icosphere(0.004, 2)];
+    let body_shape: Vec<usize> = (0..80).map(|k| k % 2).collect();
+    let drum = tube(0.06, 0.06);
+    // Sizes that are no multiple of a tile or of a vector.
+    for pixels in [[200, 100], [37, 19], [8, 513]] {
+        let mut coater = coater(&shapes, &body_shape, pixels, Some(&drum));
+        for index in 0..6 {
+            let before = coater.ledger().total();
+            spray(&mut coater, index..index + 1, &heap(80, index), 0.3 * index as f64);
+            let on_tablets: u64 = coater.exposed().iter().map(|e| e.counts).sum();
+            assert!(on_tablets > 0);
+            assert_eq!(coater.ledger().total() - before, u64::from(pixels[0]) * u64::from(pixels[1]));
+        }
+        let loss = coater.ledger().loss();
+        let on_tablets: u64 = (0..80).flat_map(|b| coater.counts(b)).sum();
+        assert_eq!(
+            on_tablets + loss.wall + loss.ends + loss.baffles + loss.empty,
+            6 * coater.counts_per_frame()
+        );
+        assert!(loss.wall > 0 && loss.empty > 0);
+    }
+}
+
+#[test]
+fn the_empty_drum_catches_everything_on_the_right_part() {
+    let drum = tube(0.06, 0.06);
+    let mut coater = coater(&[icosphere(0.004, 1)], &[], [400, 200], Some(&drum));
+    spray(&mut coater, 0..16, &[], 0.0);
+    let loss = coater.ledger().loss();
+    // The drum is 60 mm wide in a zone of 80 mm, the vane 10 mm of 40 mm; the upper wall is behind the nozzle.
+    let share = |counts: u64| counts as f64 / coater.ledger().total() as f64;
+    assert!((share(loss.empty) - 0.25).abs() < 1e-3);
+    assert!((share(loss.baffles) - 0.75 * 0.25).abs() < 1e-3);
+    assert!((share(loss.wall) - 0.75 * 0.75).abs() < 1e-3);
+    assert_eq!(loss.ends, 0);
+    // Turned half round, the vane is above the nozzle and hides nothing.
+    let mut turned = self::coater(&[icosphere(0.004, 1)], &[], [400, 200], Some(&drum));
+    spray(&mut turned, 0..1, &[], std::f64::consts::PI);
+    assert_eq!(turned.ledger().loss().baffles, 0);
+}
+
+#[test]
+fn the_order_of_tablets_changes_nothing() {
+    let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5)];
+    let bodies = heap(60, 3);
+    let backwards: Vec<_> = bodies.iter().rev().copied().collect();
+    let [mut forth, mut back] = [(); 2].map(|()| coater(&shapes, &[0; 60], [256, 128], None));
+    spray(&mut forth, 0..4, &bodies, 0.0);
+    spray(&mut back, 0..4, &backwards, 0.0);
+    for k in 0..60 {
+        assert_eq!(forth.counts(k), back.counts(59 - k), "tablet {k}");
+    }
+}
+
+#[test]
+fn moving_everything_by_whole_pixels_changes_nothing() {
+    let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5)];
+    let pixels = [256, 128];
+    let bodies = heap(60, 4);
+    let mut still = coater(&shapes, &[0; 60], pixels, None);
+    spray(&mut still, 0..8, &bodies, 0.0);
+    let shift = Vector3::new(-17.0 * EXTENT[1] / 128.0, 0.001, 231.0 * EXTENT[0] / 256.0);
+    let moved: Vec<_> = bodies.iter().map(|b| BodyState { position: b.position + shift, ..*b }).collect();
+    let zone = SprayZone { center: still.zone().center + shift, ..*still.zone() };
+    let spray_gun = Spray {
+        spanwise: EXTENT[0],
+        streamwise: EXTENT[1],
+        distance: 0.05,
+        aim: Aim::Bed,
+        pixels,
+        deposit: Deposit { rate: 1.0, solids: 1.0, film_density: 1.0 },
+    };
+    let mut shifted = Coater::new(&shapes, &[0; 60], &spray_gun, zone, None).unwrap();
+    spray(&mut shifted, 0..8, &moved, 0.0);
+    let moved_pixels: u64 = (0..60)
+        .flat_map(|k| still.counts(k).iter().zip(shifted.counts(k)))
+        .map(|(a, b)| a.abs_diff(*b))
+        .sum();
+    assert!(moved_pixels as f64 <= 1e-4 * still.ledger().total() as f64, "{moved_pixels}");
+}
+
+#[test]
+fn a_lone_tablet_shows_each_panel_its_projected_area() {
+    let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 36, 8)];
+    let panels = shapes[0].panels.as_ref().unwrap();
+    let orientation = UnitQuaternion::from_euler_angles(0.4, 0.2, -0.7);
+    let mut coater = coater(&shapes, &[0], [512, 256], None);
+    spray(&mut coater, 0..256, &[body(0.001, -0.002, 0.003, orientation)], 0.0);
+    let mut total = (0.0, 0.0);
+    for (j, &count) in coater.counts(0).iter().enumerate() {
+        let seen = count as f64 * coater.pixel_area() / 256.0;
+        let exact = panels.areas[j] * (orientation * panels.normals[j]).y.max(0.0);
+        // A 256th of a pixel for each of the panel's borders, each a few pixels long.
+        assert!((seen - exact).abs() < 0.15 * coater.pixel_area(), "panel {j}: {seen} instead of {exact}");
+        total = (total.0 + seen, total.1 + exact);
+    }
+    assert!((total.0 / total.1 - 1.0).abs() < 1e-4, "{total:?}");
+}
+
+/// Verification case V47: a fixed sphere in a parallel spray, cosine law. h ~ max(cos θ, 0) has mean 1/4 and mean
+/// square 1/6 over the sphere: CoV² = (1/6)/(1/16) − 1 = 5/3.
+#[test]
+fn a_fixed_sphere_follows_the_cosine_law() {
+    let shapes = [icosphere(0.015, 4)];
+    let areas = &shapes[0].panels.as_ref().unwrap().areas;
+    let mut coater = coater(&shapes, &[0], [512, 256], None);
+    spray(&mut coater, 0..64, &[body(0.0, 0.0, 0.0, UnitQuaternion::identity())], 0.0);
+    let thickness: Vec<f64> = film_thickness(coater.counts(0), areas, 1.0).collect();
+    let (mean, variance) = moments(&thickness, areas);
+    let cov = variance.sqrt() / mean;
+    assert!((cov - (5.0_f64 / 3.0).sqrt()).abs() < 2e-3, "{cov}");
+}
+
+/// V47, second part: after n independent random orientations the expected variance over a sphere is that of one
+/// divided by n: CoV = sqrt(5/(3n)).
+#[test]
+fn random_orientations_average_out() {
+    let (rows, columns, turns) = (4, 8, 25_u64);
+    let shapes = [icosphere(0.0045, 2)];
+    let areas = &shapes[0].panels.as_ref().unwrap().areas;
+    let count = rows * columns;
+    let mut coater = coater(&shapes, &vec![0; count], [512, 256], None);
+    let mut random = ChaCha8Rng::seed_from_u64(47);
+    for index in 0..turns {
+        let bodies: Vec<_> = (0..count)
+            .map(|k| {
+                let (row, column) = ((k / columns) as f64, (k % columns) as f64);
+                body(0.01 * (row - 1.5), 0.0, 0.01 * (column - 3.5), turned_at_random(&mut random))
+            })
+            .collect();
+        spray(&mut coater, index..index + 1, &bodies, 0.0);
+    }
+    let (mut mean, mut variance) = (0.0, 0.0);
+    for k in 0..count {
+        let thickness: Vec<f64> = film_thickness(coater.counts(k), areas, 1.0).collect();
+        let (m, v) = moments(&thickness, areas);
+        mean += m / count as f64;
+        variance += v / count as f64;
+    }
+    let ratio = (variance.sqrt() / mean) / (5.0 / (3.0 * turns as f64)).sqrt();
+    // 32 tablets of 25 turns scatter by about 3 %.
+    assert!((ratio - 1.0).abs() < 0.06, "{ratio}");
+}
+
+/// Verification case V50: the lower of two equal spheres, one above the other at a lateral offset d, shows its disc
+/// less the lens common to both: 1 − (2 acos(d/2r) − (d/r) sqrt(1 − d²/4r²))/π.
+#[test]
+fn a_sphere_shades_the_one_below_by_the_lens_of_two_discs() {
+    let radius = 0.008;
+    let shapes = [icosphere(radius, 5)];
+    for offset in [0.5_f64, 1.0, 1.5] {
+        let lens = 2.0 * (offset / 2.0).acos() - offset * (1.0 - offset * offset / 4.0).sqrt();
+        let expected = 1.0 - lens / std::f64::consts::PI;
+        let mut coater = coater(&shapes, &[0, 0], [512, 256], None);
+        let above = body(0.0, 0.0, radius * (offset - 0.5), UnitQuaternion::identity());
+        let below = body(0.0, -0.02, -radius * 0.5, UnitQuaternion::identity());
+        spray(&mut coater, 0..64, &[above, below], 0.0);
+        let [whole, part] = [0, 1].map(|k| coater.counts(k).iter().sum::<u64>() as f64);
+        assert!((part / whole - expected).abs() < 1e-3, "{} instead of {expected}", part / whole);
+    }
+}
+
+/// Verification case V53: numbers at both ends of the range name the right panels.
+#[test]
+fn the_first_and_the_last_panel_are_counted_as_themselves() {
+    let shapes = [icosphere(0.004, 0), icosphere(0.012, 0)];
+    let mut body_shape = vec![0; 400];
+    body_shape[399] = 1;
+    let far = body(1.0, 0.0, 0.0, UnitQuaternion::identity());
+    let mut bodies = vec![far; 400];
+    let last = shapes[1].panels.as_ref().unwrap().normals.len() - 1;
+    let facing = |shape: usize, panel: usize| {
+        let normal = shapes[shape].panels.as_ref().unwrap().normals[panel];
+        UnitQuaternion::rotation_between(&normal, &Vector3::y()).unwrap()
+    };
+    bodies[0] = body(0.0, 0.0, -0.03, facing(0, 0));
+    bodies[399] = body(0.0, 0.0, 0.02, facing(1, last));
+    let mut coater = coater(&shapes, &body_shape, [256, 128], None);
+    spray(&mut coater, 0..4, &bodies, 0.0);
+    let most = |k: usize| coater.counts(k).iter().enumerate().max_by_key(|(_, count)| **count).unwrap().0;
+    assert_eq!((most(0), most(399)), (0, last));
+    assert_eq!(coater.exposed().iter().map(|e| e.body).collect::<Vec<_>>(), [0, 399]);
+    assert!((1..399).all(|k| coater.counts(k).iter().all(|&count| count == 0)));
+    assert_eq!(coater.ids().id(399, last) + 1, coater.ids().panels());
+}
+
+/// Beyond 2²⁴ numbers, where colours and single precision give out.
+#[test]
+fn ten_thousand_tablets_have_their_own_numbers() {
+    let ids = PanelIds::new(std::iter::repeat_n(1856, 10_000)).unwrap();
+    for id in [0, 1, 255, 256, 65_535, 65_536, 70_000, 16_777_214, 16_777_215, 16_777_217, 18_559_999] {
+        let body = ids.body(id).unwrap();
+        assert_eq!(ids.id(body, id as usize % 1856), id);
+    }
+    assert_eq!(ids.body(18_560_000), None);
+}
