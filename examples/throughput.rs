@@ -143,6 +143,7 @@ fn peers(case: &str, dt: Option<f64>) -> Scene {
 fn cpu_seconds() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let after_name = stat.rsplit(')').next().unwrap_or_default();
-    let ticks = |k| after_name.split_whitespace().nth(k).and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN);
+    let ticks =
+        |k| after_name.split_whitespace().nth(k).and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN);
     (ticks(11) + ticks(12)) / 100.0
 }

@@ -20,10 +20,8 @@ pub(super) struct Coating {
     pub(super) coater: Coater,
     /// k_V, m³.
     pub(super) volume_per_count: f64,
-    /// Coated shapes by name.
+    /// Coated shapes, the one with the most tablets first.
     shapes: Vec<CoatedShape>,
-    /// Index into `shapes` of the one with the most tablets.
-    main: usize,
     frame_interval: f64,
     frames_per_block: u64,
     film_density: f64,
@@ -95,13 +93,11 @@ impl Coating {
                 })
             })
             .collect();
-        shapes.sort_by(|a, b| a.shape.name.cmp(&b.shape.name));
-        let most = (0..shapes.len()).max_by_key(|&k| shapes[k].bodies.len());
+        shapes.sort_by_key(|shape| std::cmp::Reverse(shape.bodies.len()));
         Ok(Self {
             volume_per_count: film_volume_per_count(&spray.deposit, interval, coater.counts_per_frame()),
             coater,
             shapes,
-            main: most.unwrap_or(0),
             frame_interval: interval,
             frames_per_block: (frames / MOST_BLOCKS).max(shortest.min(frames)).max(1),
             film_density: spray.deposit.film_density,
@@ -112,12 +108,12 @@ impl Coating {
     pub(super) fn note(&mut self, done: u64, file: &mut SeriesFile) -> Result<Option<f64>, CoatingError> {
         let time = done as f64 * self.frame_interval;
         let mut cov_intra = None;
-        if self.shapes[self.main].series.is_due(time) {
+        if self.shapes.first().is_some_and(|main| main.series.is_due(time)) {
             for (k, shape) in self.shapes.iter_mut().enumerate() {
                 let counts = shape.counts(&self.coater);
                 let map = CoatMap::new(&shape.panels.areas, &counts, self.volume_per_count)?;
                 let batch = shape.series.record(time, &map)?;
-                if let (Some(row), Some(_), true) = (shape.series.rows().last(), batch, k == self.main) {
+                if let (Some(row), Some(_), true) = (shape.series.rows().last(), batch, k == 0) {
                     file.add(row)?;
                     cov_intra = Some(row.cov_intra);
                 }
@@ -156,7 +152,7 @@ impl Coating {
             let residual = batch.identities.worst().max(shape.series.worst_identity());
             outcome.identity_residual = outcome.identity_residual.max(residual);
             let coating = shape.coating(&batch, self.volume_per_count, self.block_time());
-            if k == self.main {
+            if k == 0 {
                 outcome.main = coating;
             }
             if self.shapes.len() > 1 {
@@ -195,17 +191,13 @@ impl Coating {
 }
 
 impl CoatedShape {
-    fn counts_of<'a>(&'a self, coater: &'a Coater) -> impl Iterator<Item = u64> + 'a {
-        self.bodies.iter().flat_map(|&body| coater.counts(body).iter().copied())
-    }
-
-    /// Counts of all tablets, row by row; exact below 2⁵³.
-    fn counts(&self, coater: &Coater) -> Vec<f64> {
-        self.counts_of(coater).map(|count| count as f64).collect()
+    /// Counts of all tablets, row by row.
+    fn counts(&self, coater: &Coater) -> Vec<u64> {
+        self.bodies.iter().flat_map(|&body| coater.counts(body)).copied().collect()
     }
 
     fn close_block(&mut self, coater: &Coater) {
-        let now: Vec<u64> = self.counts_of(coater).collect();
+        let now = self.counts(coater);
         self.blocks.push(now.iter().zip(&self.blocked).map(|(now, before)| (now - before) as u32).collect());
         self.blocked = now;
     }
@@ -224,8 +216,8 @@ impl CoatedShape {
                 value: limit.asymptote.cov(),
                 low: limit.interval.low,
                 high: limit.interval.high,
+                noise_time_s: limit.asymptote.noise_time,
             }),
-            cov_intra_noise_time_s: limit.map(|limit| limit.asymptote.noise_time),
             cov_intra_orientation_only: None,
             mean_thickness_um: Some(1e6 * batch.mean_thickness),
         }

@@ -4,7 +4,7 @@ use super::coating::CoatingError;
 use super::guards::Refusal;
 use crate::models::ModelError;
 use crate::observers::{AimError, CoaterError};
-use crate::report::{GatherError, RunDirError};
+use crate::report::{ReportError, RunDirError};
 use crate::scene::SceneFaults;
 use crate::shapes::ShapeError;
 use crate::stepping::SimulationError;
@@ -27,7 +27,7 @@ pub(super) enum Failure {
     #[error(transparent)]
     Folder(#[from] RunDirError),
     #[error(transparent)]
-    Report(#[from] GatherError),
+    Report(#[from] ReportError),
     #[error(transparent)]
     Simulation(#[from] SimulationError),
     #[error(transparent)]

@@ -47,7 +47,7 @@ fn drum(args: &args::DrumArgs) -> Result<(), Failure> {
 /// Makes `report.html` of a run folder anew.
 fn report(args: &args::ReportArgs) -> Result<(), Failure> {
     let directory = crate::report::RunDir::open(&args.directory)?;
-    let page = crate::report::page(&crate::report::gather(&directory)?);
+    let page = crate::report::page(&crate::report::ReportData::read(directory.path())?);
     directory.write("report.html", page.as_bytes())?;
     print_line(&args.directory.join("report.html").display().to_string())
 }

@@ -8,7 +8,8 @@ use super::{bed, guards, print_line};
 use crate::observers::statistics::BedStatistics;
 use crate::observers::{BedPicture, Observer};
 use crate::report::{
-    Derived, Guards, Machine, Performance, RECORD_FORMAT, Results, RunDir, RunRecord, SprayAim, Status,
+    Derived, Guards, Machine, Performance, RECORD_FORMAT, ReportData, Results, RunDir, RunRecord, SprayAim,
+    Status,
 };
 use crate::scene::Scene;
 use crate::stepping::{Frame, Progress, Simulation, SimulationError};
@@ -117,7 +118,7 @@ impl Session {
         }
         let step = simulation.time_step();
         let overlap = simulation.deepest_overlap();
-        self.record.guards.deepest_overlap = overlap;
+        self.record.guards.largest_overlap_percent = 100.0 * overlap;
         self.record.warnings = guards::warnings(step, overlap).iter().map(ToString::to_string).collect();
         self.record.state_hash = Some(simulation.state_hash());
         self.record.performance = Performance {
@@ -136,7 +137,7 @@ impl Session {
         }
         ended?;
         if simulation.scene().outputs.report {
-            let page = crate::report::page(&crate::report::gather(&self.directory)?);
+            let page = crate::report::page(&ReportData::read(self.directory.path())?);
             self.directory.write("report.html", page.as_bytes())?;
         }
         drop(self.watch);
@@ -153,7 +154,7 @@ impl Session {
         results.coating = outcome.main;
         results.shapes = outcome.shapes;
         results.spray_efficiency = Some(outcome.efficiency);
-        self.record.guards.identity_residual = Some(outcome.identity_residual);
+        results.cov_identity_residual = Some(outcome.identity_residual);
         self.directory.write_table("tablets.csv", &outcome.tablets)?;
         self.directory.write_table("panels.csv", &outcome.panels)?;
         self.directory.write("coating.vtp", outcome.surfaces.as_bytes())?;
@@ -194,7 +195,7 @@ fn blank_record(scene: &Scene, scene_hash: String, simulation: &Simulation) -> R
         backend: if scene.spray.is_some() { "cpu" } else { "none" }.to_owned(),
         derived: Derived {
             spheres,
-            step_s: step.step,
+            time_step_s: step.step,
             contact_time_s: step.contact_time,
             steps_per_contact: step.steps_per_contact(),
             rayleigh_fraction: step.rayleigh_fraction(),

@@ -182,9 +182,7 @@ impl BodyPair {
         let mut memory = old.iter().filter(|l| l.touching).peekable();
         for (i, sphere) in oa.spheres.iter().enumerate() {
             let margin = sphere.radius + self.allowance;
-            if (0..3).any(|k| {
-                sphere.center[k] < min[k] - margin || sphere.center[k] > max[k] + margin
-            }) {
+            if (0..3).any(|k| sphere.center[k] < min[k] - margin || sphere.center[k] > max[k] + margin) {
                 continue;
             }
             for (j, center) in near.iter() {
@@ -211,12 +209,7 @@ impl BodyPair {
 
     /// Forces of this step, left in `exchange`.
     #[inline]
-    pub(super) fn evaluate(
-        &mut self,
-        watch: &mut PairWatch,
-        setting: &Setting<'_>,
-        places: &mut Vec<Place>,
-    ) {
+    pub(super) fn evaluate(&mut self, watch: &mut PairWatch, setting: &Setting<'_>, places: &mut Vec<Place>) {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let (ca, cb) = (&setting.bodies[a], &setting.bodies[b]);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);

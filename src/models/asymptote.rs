@@ -2,7 +2,7 @@
 
 use super::averaging::area_moments;
 use super::bootstrap::draw_counts;
-use super::{Bootstrap, CoatMap, Interval, ModelError};
+use super::{Amount, Bootstrap, CoatMap, Interval, ModelError};
 use rayon::prelude::*;
 
 /// The limit of CoV_intra and how fast it is approached.
@@ -94,7 +94,7 @@ impl AsymptoteEstimate {
     /// # Errors
     /// [`ModelError::TooFew`] below two tablets or without blocks, [`ModelError::Length`] when blocks differ in tablets,
     /// [`ModelError::Uncoated`] when nothing is coated.
-    pub fn from_blocks<T: Copy + Into<f64> + Sync>(
+    pub fn from_blocks<T: Amount>(
         blocks: &[CoatMap<'_, T>],
         duration: f64,
         bootstrap: &Bootstrap,
@@ -127,7 +127,7 @@ struct Gains<'a, T> {
     each: Vec<(f64, f64)>,
 }
 
-impl<'a, T: Copy + Into<f64> + Sync> Gains<'a, T> {
+impl<'a, T: Amount> Gains<'a, T> {
     fn new(blocks: &'a [CoatMap<'a, T>]) -> Result<Self, ModelError> {
         let Some(first) = blocks.first() else {
             return Err(ModelError::TooFew {
@@ -155,7 +155,7 @@ impl<'a, T: Copy + Into<f64> + Sync> Gains<'a, T> {
         let areas = first.areas();
         let moments = |index: usize| {
             let row = blocks[index % blocks.len()].row(index / blocks.len());
-            let thickness: Vec<f64> = row.iter().zip(areas).map(|(&c, a)| c.into() / a).collect();
+            let thickness: Vec<f64> = row.iter().zip(areas).map(|(&c, a)| c.value() / a).collect();
             let (mean, variance) = area_moments(&thickness, areas);
             (variance, mean)
         };
@@ -176,7 +176,7 @@ impl<'a, T: Copy + Into<f64> + Sync> Gains<'a, T> {
             for (block, &taken) in v.iter().enumerate().filter(|(_, taken)| **taken > 0.0) {
                 let sums = row_sum.iter_mut().zip(&mut by_block[block]);
                 for (&c, (row, column)) in self.blocks[block].row(tablet).iter().zip(sums) {
-                    let c: f64 = c.into();
+                    let c = c.value();
                     *row += taken * c;
                     *column += times * c;
                 }

@@ -1,6 +1,6 @@
 //! The averages over a batch: four ways to one number, and the identities that tie them.
 
-use super::{CoatMap, ModelError};
+use super::{Amount, CoatMap, ModelError};
 use rayon::prelude::*;
 
 /// Tablets per unit of parallel work. Fixed, so that sums are taken in the same order on any number of threads.
@@ -106,7 +106,7 @@ impl BatchStatistics {
     ///
     /// # Errors
     /// [`ModelError::Uncoated`] when nothing is coated yet, [`ModelError::TooFew`] without tablets.
-    pub fn of<T: Copy + Into<f64> + Sync>(map: &CoatMap<'_, T>) -> Result<Self, ModelError> {
+    pub fn of<T: Amount>(map: &CoatMap<'_, T>) -> Result<Self, ModelError> {
         let n = map.tablets() as f64;
         if map.tablets() == 0 {
             return Err(ModelError::TooFew { what: "a batch average", unit: "tablets", found: 0, needed: 1 });
@@ -161,21 +161,21 @@ impl BatchStatistics {
 }
 
 /// One pass over the rows of a chunk; each row is short enough to stay in the cache between its mean and its deviations.
-fn part<T: Copy + Into<f64> + Sync>(map: &CoatMap<'_, T>, rows: &[T], area: f64) -> Part {
+fn part<T: Amount>(map: &CoatMap<'_, T>, rows: &[T], area: f64) -> Part {
     let mut part =
         Part { tablets: Vec::with_capacity(CHUNK), columns: vec![0.0; map.panels()], squares: 0.0 };
     let kv = map.unit_volume();
     for row in rows.chunks_exact(map.panels()) {
         let mut sum = 0.0;
         for (&c, column) in row.iter().zip(&mut part.columns) {
-            let c: f64 = c.into();
+            let c = c.value();
             sum += c;
             *column += c;
         }
         let mean = sum / area; // counts per m²: μ_i / k_V
         let (mut deviations, mut squares) = (0.0, 0.0);
         for (&c, a) in row.iter().zip(map.areas()) {
-            let c: f64 = c.into();
+            let c = c.value();
             let h = c / a;
             deviations += (h - mean) * (h - mean) * a;
             squares += h * c;

@@ -2,6 +2,30 @@
 
 use super::ModelError;
 
+/// A number that amounts of coating are counted in.
+pub trait Amount: Copy + Sync {
+    /// The amount as a real number; counts are exact up to 2⁵³.
+    fn value(self) -> f64;
+}
+
+impl Amount for u32 {
+    fn value(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+impl Amount for u64 {
+    fn value(self) -> f64 {
+        self as f64
+    }
+}
+
+impl Amount for f64 {
+    fn value(self) -> f64 {
+        self
+    }
+}
+
 /// Coating amounts on every panel of every tablet of one shape.
 ///
 /// `amounts` is row-major, `tablets × panels`, in counts of any unit (pixels, weighted pixels, volumes); one count is the
@@ -22,7 +46,7 @@ pub struct CoatMap<'a, T> {
     unit_volume: f64,
 }
 
-impl<'a, T: Copy + Into<f64> + Sync> CoatMap<'a, T> {
+impl<'a, T: Amount> CoatMap<'a, T> {
     /// A map over panels of `areas` (m²), rows of `amounts` per tablet, and m³ per count.
     ///
     /// # Errors
@@ -74,7 +98,7 @@ impl<'a, T: Copy + Into<f64> + Sync> CoatMap<'a, T> {
 
     /// Thickness of a panel of a tablet, m (Eq 5).
     pub fn thickness(&self, tablet: usize, panel: usize) -> f64 {
-        self.unit_volume * self.row(tablet)[panel].into() / self.areas[panel]
+        self.unit_volume * self.row(tablet)[panel].value() / self.areas[panel]
     }
 }
 

@@ -20,7 +20,7 @@ mod trial_process;
 pub use asymptote::{Asymptote, AsymptoteEstimate};
 pub use averaging::{BatchStatistics, Identities, TabletMoments};
 pub use bootstrap::{Bootstrap, Interval, quantile};
-pub use coat_map::CoatMap;
+pub use coat_map::{Amount, CoatMap};
 pub use power_law::PowerLaw;
 pub use regions::{RegionMeans, region_means};
 pub use series::SeriesRow;

@@ -135,7 +135,6 @@ fn log_log(x: &str, y: &str) -> Layout {
         Axis::new()
             .title(Title::with_text(title))
             .type_(AxisType::Log)
-            .dtick(1.0)
             .grid_color(ink::GRID)
             .line_color(ink::GUIDE)
             .exponent_format(plotly::common::ExponentFormat::Power)
@@ -147,8 +146,8 @@ fn log_log(x: &str, y: &str) -> Layout {
         .height(460)
         .hover_mode(HoverMode::X)
         .font(Font::new().family("system-ui, sans-serif").size(13).color(ink::TEXT))
-        .paper_background_color("rgba(0,0,0,0)")
-        .plot_background_color("rgba(0,0,0,0)")
+        .paper_background_color("#ffffff")
+        .plot_background_color("#ffffff")
         .legend(Legend::new().x(0.01).y(-0.18).orientation(plotly::common::Orientation::Horizontal))
         .margin(Margin::new().left(64).right(16).top(12).bottom(48))
 }

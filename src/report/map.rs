@@ -27,7 +27,7 @@ pub(super) fn thickness_map(map: &ThicknessMap) -> Plot {
     .intensity(map.average_um.clone())
     .intensity_mode(IntensityMode::Cell)
     .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-    .color_bar(ColorBar::new().title(Title::with_text("µm")).thickness(14))
+    .color_bar(ColorBar::new().title(Title::with_text("µm")).thickness(14).outline_width(0))
     .flat_shading(true)
     .lighting(Lighting::new().ambient(0.85).diffuse(0.35).specular(0.05).roughness(0.9))
     .hover_info(HoverInfo::Text)
@@ -46,7 +46,7 @@ pub(super) fn thickness_map(map: &ThicknessMap) -> Plot {
             .scene(scene)
             .height(460)
             .font(Font::new().family("system-ui, sans-serif").size(13).color(ink::TEXT))
-            .paper_background_color("rgba(0,0,0,0)")
+            .paper_background_color("#ffffff")
             .margin(Margin::new().left(0).right(0).top(0).bottom(0)),
     );
     plot

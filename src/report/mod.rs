@@ -1,7 +1,7 @@
 //! The run record, the folder it lies in, and the report page made of both.
 //!
-//! Stored data come in: a record, tables and a coated surface, so that a report can be made anew from an old run. This
-//! room knows no simulation.
+//! In: the files of a run folder ([`ReportData::read`]) or plain values. Out: those files ([`RunDir`]), and one HTML file
+//! ([`page`]). Nothing here computes physics; a report can be made again from an old run.
 
 mod base64;
 mod charts;
@@ -17,7 +17,7 @@ mod verdict;
 pub mod vtp;
 
 pub use data::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap};
-pub use gather::{GatherError, gather};
+pub use gather::ReportError;
 pub use page::page;
 pub use record::{
     Bed, Coating, Derived, Estimate, Guards, Machine, Performance, RECORD_FORMAT, Results, RunRecord,

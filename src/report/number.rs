@@ -1,7 +1,7 @@
 //! Numbers as a person writes them.
 
 /// A value with `digits` significant digits, without trailing exponents for everyday sizes.
-pub(super) fn significant(value: f64, digits: usize) -> String {
+pub(super) fn significant(value: f64, digits: u8) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { "–".into() };
     }
@@ -9,9 +9,9 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     if !(-4..6).contains(&exponent) {
         let mantissa = value / 10f64.powi(exponent);
         let power: String = exponent.to_string().chars().map(superscript).collect();
-        return format!("{mantissa:.*} · 10{power}", digits.saturating_sub(1).min(2));
+        return format!("{mantissa:.*} · 10{power}", usize::from(digits.saturating_sub(1)));
     }
-    let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+    let decimals = (i32::from(digits) - 1 - exponent).max(0) as usize;
     format!("{value:.decimals$}")
 }
 

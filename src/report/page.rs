@@ -78,8 +78,8 @@ fn chart(id: &str, plot: &Plot) -> String {
 
 fn verdict(data: &ReportData) -> String {
     let Verdict { headline, sentences, doubts } = Verdict::of(data);
-    let items: String = sentences.iter().map(|s| format!("<li>{s}</li>")).collect();
-    let doubts: String = doubts.iter().map(|d| format!("<li>{}</li>", escape(d))).collect();
+    let items = concat(&sentences, |s| format!("<li>{s}</li>"));
+    let doubts = concat(&doubts, |d| format!("<li>{}</li>", escape(d)));
     let doubts = if doubts.is_empty() { doubts } else { format!("<ul class=\"doubts\">{doubts}</ul>") };
     format!("<div class=\"verdict\"><p class=\"headline\">{headline}</p><ul>{items}</ul>{doubts}</div>\n")
 }
@@ -99,8 +99,9 @@ fn cards(data: &ReportData) -> String {
             ));
         }
     }
-    let card = |(value, name)| format!("<div class=\"card\"><b>{value}</b><span>{name}</span></div>");
-    let cards: String = cards.into_iter().map(card).collect();
+    let cards = concat(&cards, |(value, name)| {
+        format!("<div class=\"card\"><b>{value}</b><span>{name}</span></div>")
+    });
     if cards.is_empty() { cards } else { format!("<div class=\"cards\">{cards}</div>\n") }
 }
 
@@ -179,19 +180,15 @@ fn numerics(data: &ReportData) -> String {
                 time(*seconds)
             );
         }
-        let _ = write!(content, "<div class=\"bar\">{bar}</div><div class=\"key\">{key}</div>\n");
+        let _ = writeln!(content, "<div class=\"bar\">{bar}</div><div class=\"key\">{key}</div>");
     }
     section("Can the numbers be trusted", "How the run was computed, and where its time went.", &content)
 }
 
 fn provenance(data: &ReportData) -> String {
-    let rows: String = data
-        .provenance
-        .iter()
-        .map(|(name, value)| {
-            format!("<tr><td>{}</td><td class=\"long\">{}</td></tr>", escape(name), escape(value))
-        })
-        .collect();
+    let rows = concat(&data.provenance, |(name, value)| {
+        format!("<tr><td>{}</td><td class=\"long\">{}</td></tr>", escape(name), escape(value))
+    });
     let scene = if data.scene_text.is_empty() {
         String::new()
     } else {
@@ -219,9 +216,13 @@ fn quantities(list: &[Quantity]) -> String {
 }
 
 fn table(rows: &[(String, String)]) -> String {
-    let rows: String =
-        rows.iter().map(|(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>")).collect();
+    let rows = concat(rows, |(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>"));
     format!("<table>{rows}</table>\n")
+}
+
+/// The texts of a list, one after the other.
+fn concat<T>(list: &[T], text: impl Fn(&T) -> String) -> String {
+    list.iter().map(text).collect::<Vec<_>>().concat()
 }
 
 /// Text that may stand in HTML.

@@ -79,7 +79,7 @@ pub struct Derived {
     /// Panels of each shape; empty without a spray.
     pub panels: BTreeMap<String, usize>,
     /// Time step, s.
-    pub step_s: f64,
+    pub time_step_s: f64,
     /// Shortest elastic contact at the scene's impact speed, s.
     pub contact_time_s: f64,
     /// Steps in that contact.
@@ -109,11 +109,8 @@ pub struct SprayAim {
 /// What says whether the numbers can be trusted.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Guards {
-    /// Largest overlap of the run over the smaller sphere's radius.
-    pub deepest_overlap: f64,
-    /// Largest residual of the averaging identities, round-off when all is well.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub identity_residual: Option<f64>,
+    /// Largest overlap of the run over the smaller sphere's radius, %.
+    pub largest_overlap_percent: f64,
 }
 
 /// What came out.
@@ -122,6 +119,9 @@ pub struct Results {
     /// Coating of the shape with the most tablets.
     #[serde(flatten)]
     pub coating: Coating,
+    /// Largest residual of the averaging identities, round-off when all is well.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cov_identity_residual: Option<f64>,
     /// Share of the sprayed counts that hit tablets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spray_efficiency: Option<f64>,
@@ -148,9 +148,6 @@ pub struct Coating {
     /// The limit of CoV_intra.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cov_intra_asymptote: Option<Estimate>,
-    /// K of CoV_intra² = CoV_∞² + K/t, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cov_intra_noise_time_s: Option<f64>,
     /// Limit of the orientation-only model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cov_intra_orientation_only: Option<f64>,
@@ -159,7 +156,7 @@ pub struct Coating {
     pub mean_thickness_um: Option<f64>,
 }
 
-/// A value with its 95 % interval.
+/// The limit of CoV_intra with its 95 % interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The value.
@@ -168,6 +165,8 @@ pub struct Estimate {
     pub low: f64,
     /// Upper end.
     pub high: f64,
+    /// K of CoV_intra² = CoV_∞² + K/t, s.
+    pub noise_time_s: f64,
 }
 
 /// Figures of the bed, means over the coated time.
@@ -233,7 +232,12 @@ mod tests {
                 coating: Coating {
                     cov_intra: Some(0.3),
                     cov_inter: Some(0.1),
-                    cov_intra_asymptote: Some(Estimate { value: 0.2, low: 0.1, high: 0.25 }),
+                    cov_intra_asymptote: Some(Estimate {
+                        value: 0.2,
+                        low: 0.1,
+                        high: 0.25,
+                        noise_time_s: 7.0,
+                    }),
                     ..Coating::default()
                 },
                 bed: Bed { kinetic_energy_j: Some(0.027), ..Bed::default() },

@@ -3,7 +3,6 @@
 use super::RunRecord;
 use crate::models::SeriesRow;
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -45,16 +44,8 @@ pub enum RunDirError {
         /// What the system said.
         source: io::Error,
     },
-    /// A record is not one.
-    #[error("{} is no run record: {source}", path.display())]
-    Record {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        source: serde_json::Error,
-    },
-    /// A table is not one.
-    #[error("{}: {source}", path.display())]
+    /// A table cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
     Table {
         /// The file.
         path: PathBuf,
@@ -136,29 +127,10 @@ impl RunDir {
     /// # Errors
     /// [`RunDirError::Write`].
     pub fn write_record(&self, record: &RunRecord) -> Result<(), RunDirError> {
-        let path = || self.path.join("run.json");
         let mut json = serde_json::to_string_pretty(record)
-            .map_err(|source| RunDirError::Record { path: path(), source })?;
+            .map_err(|fault| RunDirError::Write { path: self.path.join("run.json"), source: fault.into() })?;
         json.push('\n');
         self.write("run.json", json.as_bytes())
-    }
-
-    /// Reads `run.json`.
-    ///
-    /// # Errors
-    /// [`RunDirError::Read`], [`RunDirError::Record`].
-    pub fn record(&self) -> Result<RunRecord, RunDirError> {
-        let path = self.path.join("run.json");
-        serde_json::from_str(&self.text("run.json")?).map_err(|source| RunDirError::Record { path, source })
-    }
-
-    /// Reads a file of the run as text.
-    ///
-    /// # Errors
-    /// [`RunDirError::Read`].
-    pub fn text(&self, name: &str) -> Result<String, RunDirError> {
-        let path = self.path.join(name);
-        fs::read_to_string(&path).map_err(|source| RunDirError::Read { path, source })
     }
 
     /// Writes a table, a row per item; field names are the columns.
@@ -178,16 +150,6 @@ impl RunDir {
         let bytes =
             writer.into_inner().map_err(|broken| fault(io::Error::from(broken.into_error()).into()))?;
         self.write(name, &bytes)
-    }
-
-    /// Reads a table.
-    ///
-    /// # Errors
-    /// [`RunDirError::Table`].
-    pub fn table<R: DeserializeOwned>(&self, name: &str) -> Result<Vec<R>, RunDirError> {
-        let path = self.path.join(name);
-        let fault = |source| RunDirError::Table { path: path.clone(), source };
-        csv::Reader::from_path(&path).map_err(fault)?.deserialize().collect::<Result<_, _>>().map_err(fault)
     }
 
     /// Starts `series.csv`.
@@ -233,6 +195,10 @@ mod tests {
         names
     }
 
+    fn rows<R: serde::de::DeserializeOwned>(dir: &RunDir, name: &str) -> Vec<R> {
+        csv::Reader::from_path(dir.path().join(name)).unwrap().deserialize().map(Result::unwrap).collect()
+    }
+
     #[test]
     fn the_run_of_another_scene_is_left_untouched() {
         let folder = tempfile::tempdir().unwrap();
@@ -269,7 +235,7 @@ mod tests {
             cov_intra: None,
         };
         dir.write_table("tablets.csv", [&row]).unwrap();
-        assert_eq!(dir.table::<TabletRow>("tablets.csv").unwrap(), [row]);
+        assert_eq!(rows::<TabletRow>(&dir, "tablets.csv"), [row]);
         let row = SeriesRow {
             time_s: 0.5,
             cov_intra: 2.0,
@@ -283,9 +249,9 @@ mod tests {
         let mut series = dir.series().unwrap();
         series.add(&row).unwrap();
         // On the disk before the file is closed.
-        assert_eq!(dir.table::<SeriesRow>("series.csv").unwrap(), [row]);
+        assert_eq!(rows::<SeriesRow>(&dir, "series.csv"), [row]);
         let header = "time_s,cov_intra,cov_intra_each,cov_intra_average_tablet,cov_total,cov_inter,sd_cov_intra,\
                       mean_thickness_um\n";
-        assert!(dir.text("series.csv").unwrap().starts_with(header));
+        assert!(fs::read_to_string(dir.path().join("series.csv")).unwrap().starts_with(header));
     }
 }

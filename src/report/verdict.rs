@@ -82,8 +82,9 @@ impl Verdict {
         match inter_law(data) {
             Some(law) => {
                 sentences.push(format!(
-                    "The variation between tablets falls as time to the power {:.2} ± {:.2} (−0.50 for well-mixed tablets).",
-                    law.exponent, law.exponent_error
+                    "The variation between tablets falls as time to the power {:.2} ± {} (−0.50 for well-mixed tablets).",
+                    law.exponent,
+                    significant(law.exponent_error, 1)
                 ));
                 if (law.exponent + 0.5).abs() > 0.05 {
                     doubts.push("The variation between tablets does not fall as the root of time: they are not yet mixed.".into());

@@ -1,6 +1,6 @@
 //! Coating uniformity over time.
 
-use crate::models::{BatchStatistics, CoatMap, ModelError, SeriesRow};
+use crate::models::{Amount, BatchStatistics, CoatMap, ModelError, SeriesRow};
 
 /// Collects a row at each output time from the coating of one shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ impl CoatingSeries {
     ///
     /// # Errors
     /// Those of [`BatchStatistics::of`] but for [`ModelError::Uncoated`].
-    pub fn record<T: Copy + Into<f64> + Sync>(
+    pub fn record<T: Amount>(
         &mut self,
         time: f64,
         map: &CoatMap<'_, T>,
