@@ -3,12 +3,15 @@
 
 mod aim;
 mod coater;
+mod picture;
+pub mod statistics;
 mod zone;
 
 pub use aim::{AimError, BedSurface};
 pub use coater::{
     CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
 };
+pub use picture::{BedPicture, Image};
 pub use zone::SprayZone;
 
 pub use crate::stepping::Observer;

@@ -1,0 +1,92 @@
+//! What a report is made of.
+
+use crate::models::{RegionMeans, SeriesRow, region_means};
+use serde::{Deserialize, Serialize};
+
+/// Everything a report shows, as plain values: gathered from a run directory, or put together by hand.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ReportData {
+    /// The run's name.
+    pub title: String,
+    /// Coating uniformity over time; empty without a spray.
+    pub series: Vec<SeriesRow>,
+    /// One entry per coated shape.
+    pub shapes: Vec<ShapeCoating>,
+    /// Figures of the bed, in the order shown.
+    pub bed: Vec<Quantity>,
+    /// The bed picture, a PNG file.
+    pub picture: Option<Vec<u8>>,
+    /// Step, contacts, overlaps and what else says whether the numbers can be trusted.
+    pub numerics: Vec<Quantity>,
+    /// Wall time of each phase, s.
+    pub phases: Vec<(String, f64)>,
+    /// Largest residual of the averaging identities; `None` when not computed.
+    pub identity_residual: Option<f64>,
+    /// What the run warned of.
+    pub warnings: Vec<String>,
+    /// Where the numbers come from: version, seed, hashes, machine.
+    pub provenance: Vec<(String, String)>,
+    /// The scene file.
+    pub scene_text: String,
+}
+
+/// A number with what it is called.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Quantity {
+    /// Name, in words.
+    pub name: String,
+    /// Value, in `unit`.
+    pub value: f64,
+    /// Standard error, in `unit`, when known.
+    pub error: Option<f64>,
+    /// Unit; empty for none.
+    pub unit: String,
+}
+
+/// The coating of one shape.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ShapeCoating {
+    /// Name in the scene.
+    pub name: String,
+    /// The limit of CoV_intra; `None` when it was not estimated.
+    pub limit: Option<Limit>,
+    /// Limit of the orientation-only model, when computed.
+    pub orientation_only: Option<f64>,
+    /// The average tablet.
+    pub map: Option<ThicknessMap>,
+}
+
+/// The limit of CoV_intra as the record keeps it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Limit {
+    /// CoV_∞.
+    pub value: f64,
+    /// Lower end of its 95 % interval.
+    pub low: f64,
+    /// Upper end of its 95 % interval.
+    pub high: f64,
+    /// K of CoV² = CoV_∞² + K/t, s.
+    pub noise_time_s: Option<f64>,
+}
+
+/// Thickness on the panels of a tablet.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ThicknessMap {
+    /// Vertices in body axes, mm.
+    pub vertices_mm: Vec<[f64; 3]>,
+    /// Vertex indices of each panel, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Area of each panel, mm².
+    pub areas_mm2: Vec<f64>,
+    /// Whether each panel is on a cap; the others are on the band.
+    pub on_cap: Vec<bool>,
+    /// Thickness on each panel of the average tablet, µm.
+    pub average_um: Vec<f64>,
+}
+
+impl ThicknessMap {
+    /// Mean thickness of caps and band, µm; `None` for a shape that has only one of both, and for lists that do not match.
+    pub fn regions(&self) -> Option<RegionMeans> {
+        region_means(&self.average_um, &self.areas_mm2, &self.on_cap).ok().flatten()
+    }
+}

@@ -1,0 +1,103 @@
+//! The report in a few sentences.
+
+use super::ReportData;
+use super::number::{percent, significant, time};
+use crate::models::{Asymptote, PowerLaw};
+
+/// CoV_inter follows a power law after this coated time, s (Freireich et al. 2015, section 8.1).
+const INTER_LAW_FROM: f64 = 10.0;
+
+/// What a reader should know before looking at anything else.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Verdict {
+    /// The result in one sentence.
+    pub(super) headline: String,
+    /// What it means.
+    pub(super) sentences: Vec<String>,
+    /// What limits confidence in it.
+    pub(super) doubts: Vec<String>,
+}
+
+/// The power law of CoV_inter after ten seconds of coating.
+pub(super) fn inter_law(data: &ReportData) -> Option<PowerLaw> {
+    PowerLaw::fit(data.series.iter().filter(|r| r.time_s >= INTER_LAW_FROM).map(|r| (r.time_s, r.cov_inter)))
+        .ok()
+}
+
+impl Verdict {
+    pub(super) fn of(data: &ReportData) -> Self {
+        let Some(last) = data.series.last() else {
+            return Self {
+                headline: "Nothing was coated in this run.".into(),
+                sentences: vec!["It shows the motion of the bed only.".into()],
+                doubts: data.warnings.clone(),
+            };
+        };
+        let headline = format!(
+            "After {} of spraying the coating varies by {} over a tablet and by {} from tablet to tablet.",
+            time(last.time_s),
+            percent(last.cov_intra),
+            percent(last.cov_inter)
+        );
+        let mut sentences = Vec::new();
+        let mut doubts = data.warnings.clone();
+        for shape in &data.shapes {
+            let name = if data.shapes.len() > 1 { format!("{}: ", shape.name) } else { String::new() };
+            if let Some(limit) = &shape.limit {
+                let interval = format!("95 % interval {} to {}", percent(limit.low), percent(limit.high));
+                if limit.low > 0.0 {
+                    sentences.push(format!(
+                        "{name}Spraying longer brings the variation over a tablet down to <b>{}</b> ({interval}) and no further.",
+                        percent(limit.value)
+                    ));
+                } else {
+                    sentences.push(format!(
+                        "{name}No lower limit of the variation over a tablet shows yet: it is at most {} ({interval}).",
+                        percent(limit.high)
+                    ));
+                    doubts.push(
+                        "The data do not tell the limit from zero; a longer run narrows its interval.".into(),
+                    );
+                }
+                let law =
+                    limit.noise_time_s.map(|k| Asymptote { cov_squared: limit.value.powi(2), noise_time: k });
+                if let Some(reached) = law.and_then(|l| l.time_within(0.1)).filter(|_| limit.low > 0.0) {
+                    sentences.push(format!(
+                        "{name}It comes within a tenth of that limit after {}.",
+                        time(reached)
+                    ));
+                }
+                if limit.high - limit.low > 0.2 * limit.value && limit.low > 0.0 {
+                    doubts
+                        .push(format!("{name}The interval of the limit is wider than a fifth of its value."));
+                }
+            }
+            if let Some(means) = shape.map.as_ref().and_then(super::ThicknessMap::regions) {
+                sentences.push(format!(
+                    "{name}Caps carry {} times the thickness of the band.",
+                    significant(means.ratio(), 3)
+                ));
+            }
+        }
+        match inter_law(data) {
+            Some(law) => {
+                sentences.push(format!(
+                    "The variation between tablets falls as time to the power {:.2} ± {} (−0.50 for well-mixed tablets).",
+                    law.exponent,
+                    significant(law.exponent_error, 1)
+                ));
+                if (law.exponent + 0.5).abs() > 0.05 {
+                    doubts.push("The variation between tablets does not fall as the root of time: they are not yet mixed.".into());
+                }
+            }
+            None => doubts.push(
+                "The run is too short to check how the variation between tablets falls with time.".into(),
+            ),
+        }
+        if data.identity_residual.is_some_and(|r| r > 1e-9) {
+            doubts
+                .push("The averaging identities do not hold to round-off: do not use these numbers.".into());
+        }
+        Self { headline, sentences, doubts }
+    }
+}
