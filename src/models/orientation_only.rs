@@ -1,22 +1,11 @@
 //! The limit of CoV_intra without shadowing: tablets as they lie in the zone, coated by what they turn to the spray.
 
 use super::averaging::area_moments;
-use super::{ModelError, OrderTensor};
+use super::{ModelError, OrderTensor, TabletSurface};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-
-/// A convex tablet's surface as coating by orientation sees it: unit normals and areas (m²) of its panels.
-///
-/// A panel with normal n under a spray from the direction s receives max(0, n·s) per area. This is the model of Freireich,
-/// Ketterhagen and Wassgren 2011, "Intra-tablet coating variability for several pharmaceutical tablet shapes", Chem. Eng.
-/// Sci. 66, 2535; neighbours cast no shadow, so that its limit is above that of the real bed.
-#[derive(Debug, Clone, Copy)]
-pub struct ConvexSurface<'a> {
-    normals: &'a [Vector3<f64>],
-    areas: &'a [f64],
-}
 
 /// Thickness relative to its mean over the tablet.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,28 +26,16 @@ impl CoatPattern {
     }
 }
 
-impl<'a> ConvexSurface<'a> {
-    /// A surface of panels.
-    ///
-    /// # Errors
-    /// [`ModelError::Length`] when there are not as many normals as areas.
-    pub fn new(normals: &'a [Vector3<f64>], areas: &'a [f64]) -> Result<Self, ModelError> {
-        if normals.len() != areas.len() {
-            return Err(ModelError::Length {
-                what: "panel normals",
-                found: normals.len(),
-                expected: areas.len(),
-            });
-        }
-        Ok(Self { normals, areas })
-    }
-
+/// The model of Freireich, Ketterhagen and Wassgren 2011, "Intra-tablet coating variability for several pharmaceutical tablet
+/// shapes", Chem. Eng. Sci. 66, 2535: a panel with normal n under a spray from the direction s receives max(0, n·s) per area. The
+/// surface must be convex, and neighbours cast no shadow, so that the limit is above that of the real bed.
+impl TabletSurface<'_> {
     /// The exact limit for a set of spray directions (unit vectors in body axes, towards the nozzle): the mean of
     /// max(0, n·s) over the directions, which the Monte Carlo model nears with more and more trials.
     ///
     /// # Errors
     /// [`ModelError::Uncoated`] without directions.
-    pub fn limit(&self, directions: &[Vector3<f64>]) -> Result<CoatPattern, ModelError> {
+    pub fn orientation_limit(&self, directions: &[Vector3<f64>]) -> Result<CoatPattern, ModelError> {
         let mean = |n: &Vector3<f64>| {
             directions.iter().map(|s| n.dot(s).max(0.0)).sum::<f64>() / directions.len() as f64
         };
@@ -71,13 +48,13 @@ impl<'a> ConvexSurface<'a> {
     /// The limit from the order tensor alone: h(n) = 1/4 + n·⟨s⟩/2 + (5/16) n·Q·n.
     ///
     /// Derived here: max(0, x) = 1/4 P₀ + 1/2 P₁ + 5/16 P₂ − 3/32 P₄ + … in Legendre polynomials, and ⟨P₂(n·s)⟩ = n·Q·n. What
-    /// is left out is of fourth order in the orientation; against [`Self::limit`] the CoV is within 0.5 % for S₂ < 0.3 and
+    /// is left out is of fourth order in the orientation; against [`Self::orientation_limit`] the CoV is within 0.5 % for S₂ < 0.3 and
     /// 2 % at S₂ = 0.56, and off by up to a tenth for nearly frozen tablets. With ⟨s⟩ = 0 this is
     /// CoV = (5/4) sd_A(n·Q·n) / (1 + (5/4) mean_A(n·Q·n)).
     ///
     /// # Errors
     /// [`ModelError::Uncoated`] when the expansion gives no positive mean.
-    pub fn expansion(&self, order: &OrderTensor) -> Result<CoatPattern, ModelError> {
+    pub fn orientation_expansion(&self, order: &OrderTensor) -> Result<CoatPattern, ModelError> {
         let (mean, q) = (order.mean(), order.q());
         let thickness = |n: &Vector3<f64>| 0.25 + 0.5 * n.dot(&mean) + 0.3125 * n.dot(&(q * n));
         CoatPattern::of(&self.normals.iter().map(thickness).collect::<Vec<_>>(), self.areas)
@@ -88,7 +65,7 @@ impl<'a> ConvexSurface<'a> {
     ///
     /// # Errors
     /// [`ModelError::Uncoated`] without directions.
-    pub fn monte_carlo(
+    pub fn orientation_monte_carlo(
         &self,
         directions: &[Vector3<f64>],
         tablets: usize,
@@ -136,29 +113,29 @@ mod tests {
     #[test]
     fn a_cube_sprayed_on_one_face_and_on_all() {
         let (normals, areas) = cube();
-        let cube = ConvexSurface::new(&normals, &areas).unwrap();
-        let one = cube.limit(&[Vector3::z()]).unwrap();
+        let cube = TabletSurface::new(&normals, &normals, &areas, &[true; 6]).unwrap();
+        let one = cube.orientation_limit(&[Vector3::z()]).unwrap();
         assert!((one.cov - 5.0_f64.sqrt()).abs() < 1e-12); // 6 times on one face of six, mean 1, variance 5
         assert!((one.relative[4] - 6.0).abs() < 1e-12);
-        assert!(cube.limit(&normals).unwrap().cov < 1e-12);
+        assert!(cube.orientation_limit(&normals).unwrap().cov < 1e-12);
     }
 
     #[test]
     fn random_orientations_leave_no_variation_in_the_expansion() {
         let (normals, areas) = cube();
-        let cube = ConvexSurface::new(&normals, &areas).unwrap();
-        assert!(cube.expansion(&OrderTensor::of(&normals)).unwrap().cov < 1e-12);
-        assert_eq!(cube.limit(&[]), Err(ModelError::Uncoated));
+        let cube = TabletSurface::new(&normals, &normals, &areas, &[true; 6]).unwrap();
+        assert!(cube.orientation_expansion(&OrderTensor::of(&normals)).unwrap().cov < 1e-12);
+        assert_eq!(cube.orientation_limit(&[]), Err(ModelError::Uncoated));
     }
 
     #[test]
     fn monte_carlo_falls_to_the_exact_limit() {
         let (normals, areas) = cube();
-        let cube = ConvexSurface::new(&normals, &areas).unwrap();
+        let cube = TabletSurface::new(&normals, &normals, &areas, &[true; 6]).unwrap();
         let directions = [Vector3::z(), -Vector3::z(), Vector3::x()];
-        let limit = cube.limit(&directions).unwrap().cov;
+        let limit = cube.orientation_limit(&directions).unwrap().cov;
         let once = 5.0_f64.sqrt();
-        let found = cube.monte_carlo(&directions, 400, &[1, 10, 100, 1000], 8).unwrap();
+        let found = cube.orientation_monte_carlo(&directions, 400, &[1, 10, 100, 1000], 8).unwrap();
         for (trials, found) in [1.0_f64, 10.0, 100.0, 1000.0].into_iter().zip(found) {
             // Each tablet's map is a mean of independent draws: CoV² = limit² + (once² − limit²)/trials.
             let expected = (limit * limit + (once * once - limit * limit) / trials).sqrt();

@@ -1,7 +1,6 @@
 //! Thickness along the band and across the caps.
 
-use super::ModelError;
-use nalgebra::Vector3;
+use super::{ModelError, TabletSurface};
 use std::f64::consts::{PI, TAU};
 
 /// Mean thickness of the panels about one place of a profile.
@@ -15,22 +14,11 @@ pub struct ProfileBin {
     pub area: f64,
 }
 
-/// Where the panels of a tablet lie, in body axes with the caps normal to z. All lists have one entry per panel.
-#[derive(Debug, Clone, Copy)]
-pub struct PanelPlaces<'a> {
-    /// Centroids, m.
-    pub centroids: &'a [Vector3<f64>],
-    /// Areas, m².
-    pub areas: &'a [f64],
-    /// Whether on a cap; the others are on the band.
-    pub on_cap: &'a [bool],
-}
-
-impl PanelPlaces<'_> {
+impl TabletSurface<'_> {
     /// Band thickness against the angle about z, from −π to π; 0 along x, the length of the tablet.
     ///
     /// # Errors
-    /// [`ModelError::Length`] when the lists differ in length.
+    /// [`ModelError::Length`] unless there is a thickness per panel.
     pub fn band_by_angle(&self, thickness: &[f64], bins: usize) -> Result<Vec<ProfileBin>, ModelError> {
         self.profile(thickness, bins, -PI, PI, |j| (!self.on_cap[j]).then(|| self.angle(j)))
     }
@@ -38,7 +26,7 @@ impl PanelPlaces<'_> {
     /// Band thickness against the height z over the mid-plane, m.
     ///
     /// # Errors
-    /// [`ModelError::Length`] when the lists differ in length.
+    /// [`ModelError::Length`] unless there is a thickness per panel.
     pub fn band_by_height(&self, thickness: &[f64], bins: usize) -> Result<Vec<ProfileBin>, ModelError> {
         let band = (0..self.on_cap.len()).filter(|&j| !self.on_cap[j]);
         let half = band.map(|j| self.centroids[j].z.abs()).fold(0.0, f64::max) * (1.0 + 1e-9);
@@ -48,7 +36,7 @@ impl PanelPlaces<'_> {
     /// Thickness of both caps against the radius relative to the outline at the same angle: 0 at the axis, 1 at the band.
     ///
     /// # Errors
-    /// [`ModelError::Length`] when the lists differ in length.
+    /// [`ModelError::Length`] unless there is a thickness per panel.
     pub fn cap_by_radius(&self, thickness: &[f64], bins: usize) -> Result<Vec<ProfileBin>, ModelError> {
         const SECTORS: f64 = 72.0;
         let sector = |j: usize| (((self.angle(j) + PI) / TAU * SECTORS) as usize).min(SECTORS as usize - 1);
@@ -74,16 +62,7 @@ impl PanelPlaces<'_> {
         to: f64,
         place: impl Fn(usize) -> Option<f64>,
     ) -> Result<Vec<ProfileBin>, ModelError> {
-        let expected = self.areas.len();
-        for (what, found) in [
-            ("centroids", self.centroids.len()),
-            ("regions", self.on_cap.len()),
-            ("thickness", thickness.len()),
-        ] {
-            if found != expected {
-                return Err(ModelError::Length { what, found, expected });
-            }
-        }
+        self.expect("thickness values", thickness.len())?;
         let mut sums = vec![(0.0, 0.0); bins];
         for (panel, h) in thickness.iter().enumerate() {
             if let Some(at) = place(panel) {
@@ -104,6 +83,7 @@ impl PanelPlaces<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Vector3;
 
     /// Band panels around an oval outline at three heights, cap panels on rays; thickness is what the test wants to see.
     #[test]
@@ -123,7 +103,7 @@ mod tests {
             }
         }
         let areas = vec![1.0; centroids.len()];
-        let places = PanelPlaces { centroids: &centroids, areas: &areas, on_cap: &on_cap };
+        let places = TabletSurface::new(&centroids, &centroids, &areas, &on_cap).unwrap();
 
         let by_angle: Vec<f64> = centroids.iter().map(|c| 3.0 + (2.0 * c.y.atan2(c.x)).cos()).collect();
         let profile = places.band_by_angle(&by_angle, 36).unwrap();

@@ -75,7 +75,9 @@ mod tests {
         let mut sums = vec![0.0; 200];
         let mut rows = Vec::new();
         for time in 1..=300_u32 {
-            sums.iter_mut().for_each(|sum| *sum += rng.random_range(0.0..1.0));
+            for sum in &mut sums {
+                *sum += rng.random_range(0.0..1.0);
+            }
             if time % 20 == 0 {
                 rows.push((f64::from(time), sums.iter().map(|s| s / f64::from(time)).collect()));
             }

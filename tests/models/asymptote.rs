@@ -22,7 +22,9 @@ impl MadeUpRun {
         let areas: Vec<f64> = (0..panels).map(|j| 0.8 + 0.4 * f64::from(j % 3)).collect();
         let mut eta: Vec<f64> = (0..panels).map(|j| 1.0 + spread * (f64::from(j) * 0.7).sin()).collect();
         let mean = eta.iter().zip(&areas).map(|(e, a)| e * a).sum::<f64>() / areas.iter().sum::<f64>();
-        eta.iter_mut().for_each(|e| *e /= mean);
+        for e in &mut eta {
+            *e /= mean;
+        }
         Self { areas, eta, tablets: 60, shared }
     }
 
@@ -54,8 +56,9 @@ impl MadeUpRun {
     }
 
     fn estimate(&self, gains: &[Vec<f64>], bootstrap: &Bootstrap) -> AsymptoteEstimate {
-        let maps: Vec<_> = gains.iter().map(|g| CoatMap::new(&self.areas, g, 1.0).unwrap()).collect();
-        AsymptoteEstimate::from_blocks(&maps, gains.len() as f64, bootstrap).unwrap()
+        let maps: Vec<_> =
+            gains.iter().map(|g| CoatMap::new(&self.areas, g, 1.0).expect("whole tablets")).collect();
+        AsymptoteEstimate::from_blocks(&maps, gains.len() as f64, bootstrap).expect("coated tablets")
     }
 }
 
@@ -67,10 +70,15 @@ fn coverage(run: &MadeUpRun, blocks: usize, passes: u32) -> (f64, f64) {
     let (mut covered, mut squares) = (0, 0.0);
     for seed in 0..200 {
         let estimate = run.estimate(&run.play(blocks, passes, seed), &FEW);
-        covered += usize::from((estimate.interval.low..=estimate.interval.high).contains(&truth));
+        covered += u32::from((estimate.interval.low..=estimate.interval.high).contains(&truth));
         squares += estimate.asymptote.cov_squared / 200.0;
     }
-    (covered as f64 / 200.0, squares.sqrt() / truth)
+    let found = (f64::from(covered) / 200.0, squares.sqrt() / truth);
+    eprintln!(
+        "{blocks} blocks, limit {truth:.3}: covered {:.3}, mean estimate over truth {:.4}",
+        found.0, found.1
+    );
+    found
 }
 
 #[test]

@@ -4,3 +4,4 @@ mod asymptote;
 mod averages;
 mod orientation;
 mod tablets;
+mod thz;

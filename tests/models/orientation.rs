@@ -1,8 +1,8 @@
 //! The orientation-only limit: exact directions, the order tensor's closed form, and frozen and random extremes.
 
-use super::tablets::{ALMOND, OVAL, ROUND, Surface, TRIANGULAR};
+use super::tablets::{ALMOND, OVAL, ROUND, TRIANGULAR};
 use nalgebra::Vector3;
-use pancoat::models::{ConvexSurface, OrderTensor, region_means};
+use pancoat::models::{OrderTensor, region_means};
 
 /// Directions spread evenly over the sphere (a golden spiral).
 fn even_directions(n: u32) -> Vec<Vector3<f64>> {
@@ -39,10 +39,6 @@ fn ordered_directions(kappa: f64) -> Vec<Vector3<f64>> {
     (0..n).map(&mut direction).collect()
 }
 
-fn convex(surface: &Surface) -> ConvexSurface<'_> {
-    ConvexSurface::new(&surface.normals, &surface.areas).unwrap()
-}
-
 fn p2(z: f64) -> f64 {
     1.5 * z * z - 0.5
 }
@@ -67,7 +63,7 @@ fn closed_form_and_frozen_limits_of_the_papers_tablets() {
         let sd = surface.mean(|j| (p2(surface.normals[j].z) - mean).powi(2)).sqrt();
         assert!((mean - mean_p2).abs() < 0.003 && (sd - sd_p2).abs() < 0.003, "{name}: {mean} {sd}");
 
-        let cap_up = convex(&surface).limit(&[Vector3::z(), -Vector3::z()]).unwrap();
+        let cap_up = surface.view().orientation_limit(&[Vector3::z(), -Vector3::z()]).unwrap();
         assert!((cap_up.cov / frozen - 1.0).abs() < 0.01, "{name}: {}", cap_up.cov);
 
         for ((kappa, s2), (cov, ratio)) in
@@ -76,11 +72,11 @@ fn closed_form_and_frozen_limits_of_the_papers_tablets() {
             let directions = ordered_directions(kappa);
             let order = OrderTensor::of(&directions);
             assert!((order.s2() - s2).abs() < 0.001, "{}", order.s2());
-            let form = convex(&surface).expansion(&order).unwrap();
+            let form = surface.view().orientation_expansion(&order).unwrap();
             let by_hand = 1.25 * order.s2() * sd / (1.0 + 1.25 * order.s2() * mean);
             assert!((form.cov / by_hand - 1.0).abs() < 1e-6, "{name}: {} {by_hand}", form.cov);
 
-            let exact = convex(&surface).limit(&directions).unwrap();
+            let exact = surface.view().orientation_limit(&directions).unwrap();
             assert!((exact.cov / cov - 1.0).abs() < 0.012, "{name} S2 {s2}: {} {cov}", exact.cov);
             let allowed = if s2 < 0.3 { 0.006 } else { 0.025 };
             assert!(
@@ -103,7 +99,7 @@ fn random_orientations_leave_no_variation() {
     for tablet in [ALMOND, OVAL, ROUND, TRIANGULAR] {
         let surface = tablet.surface(60, 15);
         let directions = even_directions(40_000);
-        let limit = convex(&surface).limit(&directions).unwrap();
+        let limit = surface.view().orientation_limit(&directions).unwrap();
         assert!(limit.cov < 2e-4, "{}: {}", tablet.name, limit.cov);
         let order = OrderTensor::of(&directions);
         assert!(order.q().norm() < 1e-4);
@@ -129,7 +125,7 @@ fn rolling_leaves_the_ends_of_an_oval_thin() {
         .collect();
     let order = OrderTensor::of(&directions);
     assert!(order.along(&Vector3::x()) < order.along(&Vector3::y()));
-    let pattern = convex(&surface).limit(&directions).unwrap();
+    let pattern = surface.view().orientation_limit(&directions).unwrap();
     let band = |along_x: bool| {
         let chosen = |j: &usize| !surface.on_cap[*j] && (surface.normals[*j].x.abs() > 0.9) == along_x;
         let panels: Vec<usize> = (0..surface.areas.len()).filter(chosen).collect();

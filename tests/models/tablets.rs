@@ -5,6 +5,7 @@
 //! 0 at the axis to 1 at the outline. Parameters in mm, fitted to length, width, thickness, area, volume and band-to-face ratio.
 
 use nalgebra::Vector3;
+use pancoat::models::TabletSurface;
 
 pub(crate) struct Tablet {
     pub(crate) name: &'static str,
@@ -139,6 +140,11 @@ impl Surface {
             self.areas.push(cross.norm() / 2.0);
             self.on_cap.push(on_cap);
         }
+    }
+
+    pub(crate) fn view(&self) -> TabletSurface<'_> {
+        TabletSurface::new(&self.centroids, &self.normals, &self.areas, &self.on_cap)
+            .expect("one entry per panel each")
     }
 
     /// Area-weighted mean over the panels.
