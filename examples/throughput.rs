@@ -27,6 +27,7 @@ fn main() {
     let mut quiet = |_: &Progress| true;
     let frames = |s: f64| (s / scene.time.frame_interval).round() as u64;
     simulation.run(0, frames(warm), &mut [], &mut quiet).expect("runs");
+    let cpu = cpu_seconds();
     let (start, before) = (std::time::Instant::now(), simulation.stopwatch().seconds());
     let steps = simulation.steps();
     let mut speed = 0.0;
@@ -44,6 +45,7 @@ fn main() {
         contacts += f64::from(simulation.tally().sphere_contacts) / n as f64;
     }
     let wall = start.elapsed().as_secs_f64();
+    let cpu = cpu_seconds() - cpu;
     let phases: Vec<String> = simulation
         .stopwatch()
         .seconds()
@@ -62,10 +64,11 @@ fn main() {
         simulation.deepest_overlap()
     );
     println!(
-        "{{\"case\":\"{case}\",\"step_s\":{},\"threads\":{threads},\"simulated_s\":{seconds},\"wall_s_per_simulated_s\":{:.3},\"us_per_step\":{:.1},\"phases\":{{{}}}}}",
+        "{{\"case\":\"{case}\",\"step_s\":{},\"threads\":{threads},\"simulated_s\":{seconds},\"cpu_s_per_simulated_s\":{:.3},\"wall_s_per_simulated_s\":{:.3},\"us_per_step\":{:.1},\"phases\":{{{}}}}}",
         simulation.time_step().step,
+        cpu / seconds,
         wall / seconds,
-        wall / (simulation.steps() - steps) as f64 * 1e6,
+        cpu / (simulation.steps() - steps) as f64 * 1e6,
         phases.join(",")
     );
     println!("{}", simulation.state_hash());
@@ -134,4 +137,13 @@ fn peers(case: &str, dt: Option<f64>) -> Scene {
         spray: None,
         outputs: Outputs { series_interval: 1.0, report: false, picture: false, statistics: false },
     }
+}
+
+/// CPU time of this process so far, s, from the kernel's clock ticks (100 a second).
+fn cpu_seconds() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let after_name = stat.rsplit(')').next().unwrap_or_default();
+    let ticks =
+        |k| after_name.split_whitespace().nth(k).and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN);
+    (ticks(11) + ticks(12)) / 100.0
 }

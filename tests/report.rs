@@ -4,7 +4,7 @@
 //! `REQUIRE_CHROMIUM=1` where its absence is a fault.
 
 use pancoat::models::{Asymptote, SeriesRow};
-use pancoat::report::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap, page, vtp, write_series};
+use pancoat::report::{Limit, Quantity, ReportData, RunDir, ShapeCoating, ThicknessMap, page, vtp};
 use std::path::Path;
 use std::process::Command;
 
@@ -170,10 +170,11 @@ fn a_run_directory_holds_what_the_page_shows() {
     let sample = sample();
     let map = sample.shapes[0].map.as_ref().unwrap();
     let surface = vtp::CoatedSurface { map, representative_um: &map.average_um };
+    let run = RunDir::create(dir, &sample.scene_text).unwrap();
     std::fs::write(dir.join("coating.vtp"), vtp::write(&[surface])).unwrap();
-    write_series(&sample.series, std::fs::File::create(dir.join("series.csv")).unwrap()).unwrap();
+    let mut series = run.series().unwrap();
+    sample.series.iter().for_each(|row| series.add(row).unwrap());
     std::fs::write(dir.join("panels.csv"), "panel,shape,region\n0,round,cap\n1,round,band\n").unwrap();
-    std::fs::write(dir.join("scene.ron"), &sample.scene_text).unwrap();
     std::fs::write(dir.join("bed.png"), sample.picture.as_ref().unwrap()).unwrap();
     let record = serde_json::json!({
         "title": sample.title,
@@ -187,8 +188,9 @@ fn a_run_directory_holds_what_the_page_shows() {
             "cov_intra_asymptote": { "value": 0.19, "low": 0.178, "high": 0.201, "noise_time_s": 9.0 },
             "cov_intra_orientation_only": 0.27,
             "cov_identity_residual": 3.1e-15,
-            "angle_of_repose_deg": { "mean": 44.9, "standard_error": 0.35 },
+            "angle_of_repose_deg": 44.9,
             "mean_speed_m_per_s": 0.1997,
+            "standard_errors": { "angle_of_repose_deg": 0.35 },
         },
         "performance": { "wall_s": 227.0, "phases": { "near_pairs": 41.0, "forces": 160.0 } },
     });

@@ -51,4 +51,6 @@ pub(super) struct BodyConstants {
     pub inverse_mass: f64,
     /// Inverse principal moments, 1/(kg m²).
     pub inverse_inertia: Vector3<f64>,
+    /// 1/m + R²/I with the bounding radius R and the smallest moment I, 1/kg.
+    pub softness: f64,
 }

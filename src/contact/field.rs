@@ -2,7 +2,7 @@
 
 use super::body::{BodyConstants, Outline};
 use super::law::PairLaw;
-use super::pairs::{BodyPair, Setting};
+use super::pairs::{BodyPair, PairWatch, Setting};
 use super::resolve::Place;
 use super::surface::Surface;
 use super::walls::{Boundary, WallList};
@@ -29,6 +29,24 @@ pub struct Wrench {
     pub torque: Vector3<f64>,
 }
 
+/// What a body touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Partner {
+    /// Another body, by index.
+    Body(usize),
+    /// A surface, by index: the drum first, then the boundaries.
+    Surface(usize),
+}
+
+impl std::fmt::Display for Partner {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Body(k) => write!(f, "body {k}"),
+            Self::Surface(k) => write!(f, "surface {k}"),
+        }
+    }
+}
+
 /// What the contacts of a step amount to.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Tally {
@@ -50,7 +68,9 @@ pub struct ContactField {
     materials: usize,
     damping: DampingMass,
     skin: f64,
-    pairs: Vec<BodyPair>,
+    watches: Vec<PairWatch>,
+    /// The lists of `watches`, in the same order; boxed, as they change places at every search.
+    pairs: Vec<Box<BodyPair>>,
     boundaries: Vec<Boundary>,
     walls: Vec<WallList>,
     odometers: Vec<f64>,
@@ -75,6 +95,7 @@ impl ContactField {
             materials: n,
             damping: scene.contact.damping_mass,
             skin: SKIN * largest,
+            watches: Vec::new(),
             pairs: Vec::new(),
             boundaries: Vec::new(),
             walls: Vec::new(),
@@ -87,7 +108,9 @@ impl ContactField {
     pub fn add_body(&mut self, shape: usize, material: usize, mass: f64, inertia: &Vector3<f64>) {
         let body = self.bodies.len() as u32;
         let inverse_inertia = inertia.map(|i| 1.0 / i);
-        self.bodies.push(BodyConstants { shape, material, inverse_mass: 1.0 / mass, inverse_inertia });
+        let inverse_mass = 1.0 / mass;
+        let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
+        self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
         self.odometers.push(0.0);
         let surfaces = self.boundaries.len() as u32;
         self.walls.extend((0..surfaces).map(|surface| WallList::new(body, surface)));
@@ -112,14 +135,14 @@ impl ContactField {
 
     /// Tells the field which bodies are near each other; lists of pairs that stay are kept. Sorted, smaller index first.
     pub fn set_near(&mut self, near: &[(u32, u32)]) {
-        let mut old = std::mem::take(&mut self.pairs).into_iter().peekable();
-        self.pairs = near
-            .iter()
-            .map(|&(a, b)| {
-                while old.next_if(|p| (p.a, p.b) < (a, b)).is_some() {}
-                old.next_if(|p| (p.a, p.b) == (a, b)).unwrap_or_else(|| BodyPair::new(a, b))
-            })
-            .collect();
+        let watches = std::mem::take(&mut self.watches).into_iter();
+        let mut old = watches.zip(std::mem::take(&mut self.pairs)).peekable();
+        let kept = near.iter().map(|&(a, b)| {
+            while old.next_if(|(watch, _)| watch.key() < (a, b)).is_some() {}
+            let same = old.next_if(|(watch, _)| watch.key() == (a, b));
+            same.unwrap_or_else(|| (PairWatch::new(a, b), Box::new(BodyPair::new())))
+        });
+        (self.watches, self.pairs) = kept.unzip();
     }
 
     /// Tells the field that a body moved by `moved` m and turned by `turned` rad against the carrier.
@@ -154,12 +177,16 @@ impl ContactField {
             dt,
         };
         let boundaries = &self.boundaries;
-        let pairs = |chunk: &mut [BodyPair]| {
-            let (mut kept, mut places) = (Vec::new(), Vec::<Place>::new());
+        let pairs = |(watches, pairs): (&mut [PairWatch], &mut [Box<BodyPair>])| {
+            let (mut near, mut places) = (Vec::new(), Vec::<Place>::new());
             let mut rebuilt = 0;
-            for pair in chunk {
-                rebuilt += u32::from(pair.refresh(&setting, &mut kept));
-                pair.evaluate(&setting, &mut places);
+            for (watch, pair) in watches.iter_mut().zip(pairs) {
+                if watch.due(setting.odometers) {
+                    rebuilt += u32::from(pair.refresh(watch, &setting, &mut near));
+                }
+                if watch.alert(setting.odometers) {
+                    pair.evaluate(watch, &setting, &mut places);
+                }
             }
             rebuilt
         };
@@ -177,12 +204,15 @@ impl ContactField {
         let mut tally = Tally::default();
         if rayon::current_num_threads() > 1 {
             let (rebuilt, ()) = rayon::join(
-                || self.pairs.par_chunks_mut(CHUNK).map(pairs).sum::<u32>(),
+                || {
+                    let watches = self.watches.par_chunks_mut(CHUNK);
+                    watches.zip(self.pairs.par_chunks_mut(CHUNK)).map(pairs).sum::<u32>()
+                },
                 || self.walls.par_chunks_mut(CHUNK).for_each(walls),
             );
             tally.rebuilt = rebuilt;
         } else {
-            tally.rebuilt = pairs(&mut self.pairs);
+            tally.rebuilt = pairs((&mut self.watches, &mut self.pairs));
             walls(&mut self.walls);
         }
         self.gather(wrenches, &mut tally);
@@ -202,16 +232,26 @@ impl ContactField {
             tally.wall_contacts += wall.exchange.contacts;
             tally.deepest = tally.deepest.max(wall.exchange.deepest);
         }
-        for pair in self.pairs.iter().filter(|p| p.exchange.contacts > 0) {
-            let a = &mut wrenches[pair.a as usize];
+        for (watch, pair) in self.watches.iter().zip(&self.pairs).filter(|(w, _)| w.contacts > 0) {
+            let a = &mut wrenches[watch.a as usize];
             a.force -= pair.exchange.force;
             a.torque += pair.exchange.torque_a;
-            let b = &mut wrenches[pair.b as usize];
+            let b = &mut wrenches[watch.b as usize];
             b.force += pair.exchange.force;
             b.torque += pair.exchange.torque_b;
-            tally.sphere_contacts += pair.exchange.contacts;
+            tally.sphere_contacts += watch.contacts;
             tally.deepest = tally.deepest.max(pair.exchange.deepest);
         }
+    }
+
+    /// The deepest contact of the last step: its body, and the other body or the surface.
+    pub fn deepest(&self) -> Option<(usize, Partner)> {
+        let pairs = self.watches.iter().zip(&self.pairs).filter(|(watch, _)| watch.contacts > 0);
+        let pairs = pairs.map(|(w, p)| (p.exchange.deepest, w.a as usize, Partner::Body(w.b as usize)));
+        let walls = self.walls.iter().filter(|w| w.exchange.contacts > 0);
+        let walls =
+            walls.map(|w| (w.exchange.deepest, w.body as usize, Partner::Surface(w.surface as usize)));
+        pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, body, partner)| (body, partner))
     }
 
     /// Torque of the bodies on a surface about the surface's origin in the last step, N m.
@@ -221,9 +261,9 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let pairs = self.pairs.iter().flat_map(|p| {
+        let pairs = self.watches.iter().zip(&self.pairs).flat_map(|(w, p)| {
             let touching = p.links.iter().filter(|l| l.touching);
-            touching.map(|l| (p.a, p.b, u32::from(l.i), u32::from(l.j), l.spring.stretch))
+            touching.map(|l| (w.a, w.b, u32::from(l.i), u32::from(l.j), l.spring.stretch))
         });
         let walls = self.walls.iter().flat_map(|w| {
             let touching = w.grips.iter().filter(|g| g.touching);

@@ -12,5 +12,5 @@ mod resolve;
 mod surface;
 mod walls;
 
-pub use field::{ContactField, Tally, Wrench};
+pub use field::{ContactField, Partner, Tally, Wrench};
 pub use law::{ContactForce, Dashpots, PairLaw, Spring, Touch, damping_ratio};

@@ -1,9 +1,10 @@
 //! Two bodies near each other: the list of sphere pairs that may touch, its budget, and its forces.
 //!
 //! Most of the bed turns as a solid, so neighbours hardly move against each other. A list holds the sphere pairs with a
-//! gap below the skin and stays valid until the bodies' *relative* motion has used the skin up. Three tests of growing
-//! cost watch over that: the sum of both odometers (motion against the turning drum) against a mark; the exact
-//! relative displacement since the list was built; a new list.
+//! gap below the skin and stays valid until the bodies' *relative* motion has used the skin up. Tests of growing cost
+//! watch over that: the sum of both odometers (motion against the turning drum) against a mark; the exact relative
+//! displacement since the list was built; a new list from the candidates, which are the sphere pairs within a wider
+//! skin; new candidates from all spheres.
 
 use super::body::{BodyConstants, Outline};
 use super::law::{PairLaw, Spring};
@@ -11,6 +12,7 @@ use super::resolve::{Exchange, Partner, Place, Remembers, resolve};
 use crate::scene::DampingMass;
 use crate::world::Motion;
 use nalgebra::{Matrix3, Vector3};
+use smallvec::SmallVec;
 
 /// Two spheres that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +20,8 @@ pub(super) struct Link {
     pub i: u16,
     pub j: u16,
     pub touching: bool,
+    /// Sum of the odometers up to which the spheres cannot touch, m: where they last were, plus the gap there.
+    until: f64,
     pub spring: Spring,
 }
 
@@ -27,20 +31,33 @@ impl Remembers for Link {
     }
 }
 
-/// Two bodies, `a < b`.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct BodyPair {
+/// What is read of every near pair in every step: kept apart from the lists, which most pairs do not need.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PairWatch {
+    /// Bodies, `a < b`.
     pub a: u32,
     pub b: u32,
-    /// Sorted by (i, j).
-    pub links: Vec<Link>,
-    /// Pose of b in a's axes when the list was built.
-    built: (Vector3<f64>, Matrix3<f64>),
-    /// Relative motion the list allows, m.
-    allowance: f64,
     /// Sum of the odometers up to which nothing needs a look, m.
     mark: f64,
+    /// Sum of the odometers up to which nothing in the list can touch, m.
+    quiet: f64,
+    /// Sphere pairs that touch.
+    pub contacts: u32,
+}
+
+/// The list of two bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BodyPair {
+    /// Sorted by (i, j).
+    pub links: SmallVec<[Link; 4]>,
     pub exchange: Exchange,
+    /// Relative motion the list allows, m, and where it was built.
+    allowance: f64,
+    built: Relative,
+    /// Sphere pairs that were within a gap of `width`, m, at the pose `sought`; sorted.
+    candidates: Vec<(u16, u16)>,
+    width: f64,
+    sought: Relative,
 }
 
 /// What a pair reads while it works.
@@ -59,6 +76,10 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
+    fn outline(&self, body: usize) -> &Outline {
+        &self.outlines[self.bodies[body].shape]
+    }
+
     pub(super) fn law(&self, a: usize, b: usize) -> &PairLaw {
         &self.laws[a * self.materials + b]
     }
@@ -69,112 +90,182 @@ impl Setting<'_> {
             motion: &self.motions[body],
             inverse_mass: constants.inverse_mass,
             inverse_inertia: constants.inverse_inertia,
+            softness: constants.softness,
         }
     }
 }
 
-/// Lists are also searched this many skins deep, so that a pair without links knows how long it may rest.
-const LOOKOUT: f64 = 4.0;
+/// Skin of the candidates, in skins: they are found anew so many times more rarely than lists are.
+const WIDE: f64 = 5.0;
 /// A list is renewed when less than this share of its skin is left.
 const RENEW: f64 = 0.3;
 
-impl BodyPair {
+/// Pose of b in a's axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Relative {
+    position: Vector3<f64>,
+    rotation: Matrix3<f64>,
+}
+
+impl Relative {
+    /// How far b's sphere centres can have moved against a since `then`, m; `reach` is the farthest of them.
+    fn moved_since(&self, then: &Self, reach: f64) -> f64 {
+        // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
+        let turned = (3.0 - then.rotation.dot(&self.rotation)).max(0.0).sqrt();
+        (self.position - then.position).norm() + turned * reach
+    }
+}
+
+impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
+        Self { a, b, mark: f64::NEG_INFINITY, quiet: f64::NEG_INFINITY, contacts: 0 }
+    }
+
+    pub(super) fn key(&self) -> (u32, u32) {
+        (self.a, self.b)
+    }
+
+    /// Whether the list may no longer hold all that touches.
+    #[inline]
+    pub(super) fn due(&self, odometers: &[f64]) -> bool {
+        self.travelled(odometers) > self.mark
+    }
+
+    /// Whether something in the list may touch, or did.
+    #[inline]
+    pub(super) fn alert(&self, odometers: &[f64]) -> bool {
+        self.contacts > 0 || self.travelled(odometers) > self.quiet
+    }
+
+    #[inline]
+    fn travelled(&self, odometers: &[f64]) -> f64 {
+        odometers[self.a as usize] + odometers[self.b as usize]
+    }
+}
+
+impl BodyPair {
+    pub(super) fn new() -> Self {
         Self {
-            a,
-            b,
-            links: Vec::new(),
-            built: (Vector3::zeros(), Matrix3::zeros()),
+            links: SmallVec::new(),
+            built: Relative { position: Vector3::zeros(), rotation: Matrix3::zeros() },
             allowance: 0.0,
-            mark: f64::NEG_INFINITY,
+            candidates: Vec::new(),
+            width: 0.0,
+            sought: Relative { position: Vector3::zeros(), rotation: Matrix3::zeros() },
             exchange: Exchange::default(),
         }
     }
 
     /// Makes sure that every sphere pair that touches is in the list. True if the list was built anew.
-    #[inline]
-    pub(super) fn refresh(&mut self, setting: &Setting<'_>, kept: &mut Vec<u16>) -> bool {
-        let travelled = setting.odometers[self.a as usize] + setting.odometers[self.b as usize];
-        if travelled <= self.mark {
-            return false;
-        }
-        let (ma, mb) = (&setting.motions[self.a as usize], &setting.motions[self.b as usize]);
-        let position = ma.rotation.tr_mul(&(mb.position - ma.position));
-        let rotation = ma.rotation.tr_mul(&mb.rotation);
-        let reach = setting.outlines[setting.bodies[self.b as usize].shape].reach;
-        // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
-        let turned = (3.0 - self.built.1.dot(&rotation)).max(0.0).sqrt();
-        let left = self.allowance - (position - self.built.0).norm() - turned * reach;
+    pub(super) fn refresh(
+        &mut self,
+        watch: &mut PairWatch,
+        setting: &Setting<'_>,
+        near: &mut Vec<(u16, Vector3<f64>)>,
+    ) -> bool {
+        let (a, b) = (watch.a as usize, watch.b as usize);
+        let travelled = watch.travelled(setting.odometers);
+        let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
+        let now = Relative {
+            position: ma.rotation.tr_mul(&(mb.position - ma.position)),
+            rotation: ma.rotation.tr_mul(&mb.rotation),
+        };
+        let (oa, ob) = (setting.outline(a), setting.outline(b));
+        let left = self.allowance - now.moved_since(&self.built, ob.reach);
         if left > RENEW * self.allowance {
-            self.mark = travelled + left;
+            watch.mark = travelled + left;
             return false;
         }
-        self.built = (position, rotation);
-        self.rebuild(setting, kept);
-        self.mark = travelled + self.allowance;
+        self.built = now;
+        if self.width - now.moved_since(&self.sought, ob.reach) < setting.skin {
+            self.seek(oa, ob, WIDE * setting.skin, near);
+        }
+        // What is no candidate has at least this gap.
+        self.allowance = self.width - now.moved_since(&self.sought, ob.reach);
+        self.list(oa, ob, setting.skin, travelled);
+        watch.mark = travelled + self.allowance;
+        watch.quiet = f64::NEG_INFINITY;
         true
     }
 
-    fn rebuild(&mut self, setting: &Setting<'_>, kept: &mut Vec<u16>) {
-        let (position, rotation) = self.built;
-        let oa = &setting.outlines[setting.bodies[self.a as usize].shape];
-        let ob = &setting.outlines[setting.bodies[self.b as usize].shape];
-        let lookout = LOOKOUT * setting.skin;
-        kept.clear();
+    /// Finds the candidates at the pose `built`. `near` is scratch: b's spheres near a's box, in a's axes.
+    fn seek(&mut self, oa: &Outline, ob: &Outline, width: f64, near: &mut Vec<(u16, Vector3<f64>)>) {
+        let Relative { position, rotation } = self.built;
+        self.sought = self.built;
+        self.width = width.max(position.norm() - oa.bounding_radius - ob.bounding_radius);
+        self.candidates.clear();
+        near.clear();
+        if self.width > width {
+            return;
+        }
+        let (mut min, mut max) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
         for (j, sphere) in ob.spheres.iter().enumerate() {
-            if oa.near(&(position + rotation * sphere.center), sphere.radius + lookout) {
-                kept.push(j as u16);
+            let center = position + rotation * sphere.center;
+            if oa.near(&center, sphere.radius + width) {
+                min = min.inf(&center.add_scalar(-sphere.radius));
+                max = max.sup(&center.add_scalar(sphere.radius));
+                near.push((j as u16, center));
             }
         }
+        for (i, sphere) in oa.spheres.iter().enumerate() {
+            let margin = sphere.radius + width;
+            let c = &sphere.center;
+            if near.is_empty() || (0..3).any(|k| c[k] < min[k] - margin || c[k] > max[k] + margin) {
+                continue;
+            }
+            for (j, center) in near.iter() {
+                let reach = margin + ob.spheres[*j as usize].radius;
+                if (center - c).norm_squared() < reach * reach {
+                    self.candidates.push((i as u16, *j));
+                }
+            }
+        }
+    }
+
+    /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
+    fn list(&mut self, oa: &Outline, ob: &Outline, skin: f64, travelled: f64) {
+        let Relative { position, rotation } = self.built;
         let old = std::mem::take(&mut self.links);
-        let mut nearest = lookout;
-        if !kept.is_empty() {
-            let mut memory = old.iter().filter(|l| l.touching).peekable();
-            for (i, sphere) in oa.spheres.iter().enumerate() {
-                let local = rotation.tr_mul(&(sphere.center - position));
-                if !ob.near(&local, sphere.radius + lookout) {
-                    continue;
-                }
-                for &j in kept.iter() {
-                    let other = &ob.spheres[j as usize];
-                    let reach = sphere.radius + other.radius + nearest;
-                    let distance2 = (other.center - local).norm_squared();
-                    if distance2 >= reach * reach {
-                        continue;
-                    }
-                    let gap = distance2.sqrt() - sphere.radius - other.radius;
-                    nearest = nearest.min(gap.max(setting.skin));
-                    if gap >= setting.skin {
-                        continue;
-                    }
-                    let key = (i as u16, j);
-                    while memory.next_if(|l| (l.i, l.j) < key).is_some() {}
-                    let link = match memory.next_if(|l| (l.i, l.j) == key) {
-                        Some(link) => *link,
-                        None => Link { i: key.0, j, touching: false, spring: Spring::default() },
-                    };
-                    self.links.push(link);
-                }
+        let mut memory = old.iter().filter(|l| l.touching).peekable();
+        for &(i, j) in &self.candidates {
+            let (si, sj) = (&oa.spheres[i as usize], &ob.spheres[j as usize]);
+            let sum = si.radius + sj.radius;
+            let distance2 = (position + rotation * sj.center - si.center).norm_squared();
+            let reach = sum + self.allowance;
+            if distance2 >= reach * reach {
+                continue;
             }
+            let gap = distance2.sqrt() - sum;
+            if gap >= skin {
+                self.allowance = gap;
+                continue;
+            }
+            while memory.next_if(|l| (l.i, l.j) < (i, j)).is_some() {}
+            let until = travelled + gap;
+            self.links.push(match memory.next_if(|l| (l.i, l.j) == (i, j)) {
+                Some(link) => Link { until, ..*link },
+                None => Link { i, j, touching: false, until, spring: Spring::default() },
+            });
         }
-        self.allowance = nearest;
     }
 
     /// Forces of this step, left in `exchange`.
     #[inline]
-    pub(super) fn evaluate(&mut self, setting: &Setting<'_>, places: &mut Vec<Place>) {
-        if self.links.is_empty() {
-            self.exchange.contacts = 0;
-            return;
-        }
-        let (a, b) = (self.a as usize, self.b as usize);
+    pub(super) fn evaluate(&mut self, watch: &mut PairWatch, setting: &Setting<'_>, places: &mut Vec<Place>) {
+        let (a, b) = (watch.a as usize, watch.b as usize);
         let (ca, cb) = (&setting.bodies[a], &setting.bodies[b]);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (sa, sb) = (&setting.outlines[ca.shape].spheres, &setting.outlines[cb.shape].spheres);
         let between = mb.position - ma.position;
         places.clear();
         let mut deepest: f64 = 0.0;
+        let travelled = watch.travelled(setting.odometers);
+        watch.quiet = f64::INFINITY;
         for (k, link) in self.links.iter_mut().enumerate() {
+            if travelled < link.until {
+                watch.quiet = watch.quiet.min(link.until);
+                continue;
+            }
             let (si, sj) = (&sa[link.i as usize], &sb[link.j as usize]);
             let center_a = ma.rotation * si.center;
             let center_b = mb.rotation * sj.center;
@@ -186,9 +277,12 @@ impl BodyPair {
                     link.touching = false;
                     link.spring = Spring::default();
                 }
+                link.until = travelled + (distance2.sqrt() - sum);
+                watch.quiet = watch.quiet.min(link.until);
                 continue;
             }
             link.touching = true;
+            link.until = f64::NEG_INFINITY;
             let distance = distance2.sqrt();
             let normal = if distance > 0.0 { d / distance } else { Vector3::y() };
             let overlap = sum - distance;
@@ -206,8 +300,8 @@ impl BodyPair {
                 velocity: mb.velocity_at(&arm_b) - ma.velocity_at(&arm_a),
             });
         }
+        watch.contacts = places.len() as u32;
         if places.is_empty() {
-            self.exchange.contacts = 0;
             return;
         }
         let law = setting.law(ca.material, cb.material);

@@ -12,6 +12,8 @@ pub(super) const SMOOTH: f64 = 0.35;
 pub(super) struct Facet {
     corners: [Vector3<f64>; 3],
     normal: Vector3<f64>,
+    /// Ball about the facet: centre, m, and radius, m.
+    ball: (Vector3<f64>, f64),
     pub patch: u32,
     /// Patches that meet each edge k → k+1 and each corner, this facet's own left out.
     edge_patches: [Vec<u32>; 3],
@@ -60,7 +62,10 @@ impl Surface {
                 corner_patches[k].iter().copied().filter(|p| next.contains(p)).collect()
             };
             let corners = t.map(|v| mesh.vertices[v as usize]);
+            let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let radius = corners.iter().map(|c| (c - center).norm()).fold(0.0, f64::max);
             Facet {
+                ball: (center, radius),
                 normal: (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize(),
                 corners,
                 patch,
@@ -99,6 +104,14 @@ impl Surface {
 }
 
 impl Facet {
+    /// Whether the facet is surely farther from `p` than `distance`.
+    #[inline]
+    pub(super) fn beyond(&self, p: &Vector3<f64>, distance: f64) -> bool {
+        let from = p - self.ball.0;
+        let reach = self.ball.1 + distance;
+        self.normal.dot(&from).abs() > distance || from.norm_squared() > reach * reach
+    }
+
     /// Vector from `p` to the closest point of the triangle, and the other patches there.
     ///
     /// Source: Ericson 2005, Real-Time Collision Detection, section 5.1.5.

@@ -128,6 +128,9 @@ impl WallList {
             Surface::Plane(..) => 0,
             Surface::Mesh(all) => all[f as usize].patch,
         };
+        if let Surface::Mesh(all) = &boundary.surface {
+            near.retain(|f| !all[*f as usize].beyond(&position, outline.bounding_radius + nearest));
+        }
         near.sort_by_key(|f| (patch_of(*f), *f));
         for (i, sphere) in outline.spheres.iter().enumerate() {
             let center = position + rotation * sphere.center;
@@ -138,6 +141,11 @@ impl WallList {
                 while k < near.len() && patch_of(near[k]) == patch {
                     let f = near[k];
                     k += 1;
+                    if let Surface::Mesh(all) = &boundary.surface
+                        && all[f as usize].beyond(&center, sphere.radius + nearest)
+                    {
+                        continue;
+                    }
                     let gap = boundary.surface.nearest(&center, &[f]).distance - sphere.radius;
                     if gap < setting.skin {
                         self.facets.push(f);
@@ -214,7 +222,8 @@ impl WallList {
             return;
         }
         let law = setting.law(constants.material, boundary.material);
-        let wall = Partner { motion: surface, inverse_mass: 0.0, inverse_inertia: Vector3::zeros() };
+        let inverse_inertia = Vector3::zeros();
+        let wall = Partner { motion: surface, inverse_mass: 0.0, inverse_inertia, softness: 0.0 };
         let sides = (setting.partner(self.body as usize), wall);
         self.exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.grips);
         self.exchange.deepest = deepest;

@@ -3,6 +3,7 @@
 
 mod aim;
 mod coater;
+mod picture;
 pub mod statistics;
 mod zone;
 
@@ -10,6 +11,7 @@ pub use aim::{AimError, BedSurface};
 pub use coater::{
     CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
 };
+pub use picture::{BedPicture, Image};
 pub use zone::SprayZone;
 
 pub use crate::stepping::Observer;

@@ -1,7 +1,6 @@
 //! From the files of a run directory to what a report shows.
 
 use super::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap, vtp};
-use crate::models::SeriesRow;
 use serde::Deserialize;
 use serde_json::Value;
 use std::io::ErrorKind;
@@ -45,7 +44,7 @@ pub enum ReportError {
 }
 
 /// What the record's sections are called and how a report uses them. All numbers in a section are shown; the name and unit of
-/// each come from its key (`angle_of_repose_deg`), a value may be a number or `{ mean, standard_error }`.
+/// each come from its key (`angle_of_repose_deg`), the error from the same key of the section's `standard_errors`.
 const NUMERICS: [&str; 2] = ["derived", "guards"];
 /// Results that charts and verdict show, so that they are not listed with the bed.
 const SHOWN_ELSEWHERE: &str = "cov_";
@@ -154,12 +153,12 @@ fn plain(value: &Value) -> Option<String> {
 /// The numbers of a section with their keys.
 fn quantities(section: &Value) -> Vec<(String, Quantity)> {
     let quantity = |(key, value): (&String, &Value)| {
-        let number = value.as_f64().or_else(|| value["mean"].as_f64())?;
+        let number = value.as_f64()?;
         let (name, unit) = UNITS
             .iter()
             .find_map(|(suffix, unit)| Some((key.strip_suffix(suffix)?, *unit)))
             .unwrap_or((key.as_str(), ""));
-        let error = value["standard_error"].as_f64();
+        let error = section["standard_errors"][key].as_f64();
         Some((key.clone(), Quantity { name: words(name), value: number, error, unit: unit.into() }))
     };
     entries(section).filter_map(quantity).collect()
@@ -209,14 +208,4 @@ fn table<Row: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<Row>, Report
     let Some(text) = read(path)? else { return Ok(Vec::new()) };
     let rows = csv::Reader::from_reader(&text[..]).deserialize().collect::<Result<Vec<Row>, _>>();
     rows.map_err(|source| ReportError::Table { path: path.into(), source })
-}
-
-/// Rows of `series.csv`, the header with them.
-///
-/// # Errors
-/// [`csv::Error`] from the writer.
-pub fn write_series(rows: &[SeriesRow], to: impl std::io::Write) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_writer(to);
-    rows.iter().try_for_each(|row| writer.serialize(row))?;
-    Ok(writer.flush()?)
 }

@@ -1,7 +1,7 @@
-//! The run record and the report page.
+//! The run record, the folder it lies in, and the report page made of both.
 //!
-//! In: the files of a run directory ([`ReportData::read`]) or plain values. Out: one HTML file ([`page`]). Nothing here
-//! computes physics; a report can be made again from an old run.
+//! In: the files of a run folder ([`ReportData::read`]) or plain values. Out: those files ([`RunDir`]), and one HTML file
+//! ([`page`]). Nothing here computes physics; a report can be made again from an old run.
 
 mod base64;
 mod charts;
@@ -10,9 +10,18 @@ mod gather;
 mod map;
 mod number;
 mod page;
+mod record;
+mod run_dir;
+mod tables;
 mod verdict;
 pub mod vtp;
 
 pub use data::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap};
-pub use gather::{ReportError, write_series};
+pub use gather::ReportError;
 pub use page::page;
+pub use record::{
+    Bed, Coating, Derived, Estimate, Guards, Machine, Performance, RECORD_FORMAT, Results, RunRecord,
+    SprayAim, Status,
+};
+pub use run_dir::{RunDir, RunDirError, SeriesFile};
+pub use tables::{PanelRow, TabletRow};

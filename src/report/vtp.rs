@@ -22,7 +22,7 @@ pub struct VtpError {
 pub struct CoatedSurface<'a> {
     /// Surface and thickness of the average tablet.
     pub map: &'a ThicknessMap,
-    /// Thickness of the representative tablet, µm per panel.
+    /// Thickness of the representative tablet, µm per panel; empty when not computed.
     pub representative_um: &'a [f64],
 }
 
@@ -36,8 +36,12 @@ pub fn write(surfaces: &[CoatedSurface<'_>]) -> String {
         let corners = list(map.triangles.iter().flatten());
         let offsets = list((1..=cells).map(|k| 3 * k));
         let caps = list(map.on_cap.iter().map(|&cap| u8::from(cap)));
+        let representative = match surface.representative_um {
+            [] => String::new(),
+            thickness => array("Float64", "representative_um", &list(thickness)),
+        };
         let arrays = array("Float64", "average_um", &list(&map.average_um))
-            + &array("Float64", "representative_um", &list(surface.representative_um))
+            + &representative
             + &array("Float64", "area_mm2", &list(&map.areas_mm2))
             + &array("UInt8", "cap", &caps);
         let _ = write!(

@@ -88,7 +88,7 @@ pub struct Shape {
     pub name: String,
     /// What the solid is.
     pub recipe: Recipe,
-    /// How many spheres the clump has (1 for a sphere recipe).
+    /// How many spheres the clump has: 1 for a sphere, 0 for a clump file (as many as it lists).
     pub spheres: usize,
     /// How many panels the surface is cut into, about.
     pub panels: usize,

@@ -1,5 +1,6 @@
 //! Why a run cannot go on.
 
+use crate::contact::Partner;
 use crate::shapes::ShapeError;
 
 /// Why a run cannot be built or go on. Times are simulated seconds since the start.
@@ -18,10 +19,16 @@ pub enum SimulationError {
     },
     /// A sphere is as good as through another.
     #[error(
-        "a sphere is overlapped by {ratio:.2} of its radius at {time:.6} s: \
+        "body {body} and {partner} overlap by {ratio:.2} of a sphere's radius at step {step}, {time:.6} s: \
          lower time.step, raise the shear modulus or lower the speeds"
     )]
     Overlap {
+        /// Index of the body.
+        body: usize,
+        /// What it overlaps.
+        partner: Partner,
+        /// Number of the step.
+        step: u64,
         /// Simulated time, s.
         time: f64,
         /// Overlap over radius, dimensionless.

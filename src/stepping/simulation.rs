@@ -200,7 +200,9 @@ impl Simulation {
     /// Stops a run that has gone wrong while its last good state is still at hand.
     fn guard(&self) -> Result<(), SimulationError> {
         if self.tally.deepest > MOST_OVERLAP {
-            return Err(SimulationError::Overlap { time: self.clock(), ratio: self.tally.deepest });
+            let (body, partner) = self.field.deepest().expect("a contact overlaps");
+            let (step, time, ratio) = (self.step, self.clock(), self.tally.deepest);
+            return Err(SimulationError::Overlap { body, partner, step, time, ratio });
         }
         Ok(())
     }

@@ -35,14 +35,16 @@ pub struct Progress {
 
 /// Time between two waves of tablets while the drum is filled, s: long enough to fall half a pan.
 const WAVE: f64 = 0.1;
+/// A wave takes at most one in so many of the sites, lowest first, so that no tablet falls far.
+const WAVES: usize = 6;
 /// Waves in a row that place nothing before the drum counts as full.
 const PATIENCE: usize = 20;
 /// Length of a settling window without baffles, s.
 const WINDOW: f64 = 0.5;
 
 impl Simulation {
-    /// Fills the drum with the scene's batches while it turns: as many tablets as find a free site of a lattice, in
-    /// random orientation, then the rest as sites come free. Batches are mixed evenly.
+    /// Fills the drum with the scene's batches while it turns: in waves, tablets
+    /// in random orientation take the lowest free sites of a lattice. Batches are mixed evenly.
     ///
     /// # Errors
     /// [`SimulationError::Full`] when tablets no longer find room, or anything that stops a run.
@@ -55,8 +57,9 @@ impl Simulation {
         let mut idle = 0;
         while !waiting.is_empty() {
             let before = waiting.len();
+            let share = sites.len().div_ceil(WAVES);
             for site in &sites {
-                if waiting.is_empty() {
+                if waiting.is_empty() || before - waiting.len() >= share {
                     break;
                 }
                 let free = self.motions.iter().all(|m| (m.position - site).norm() > 2.0 * radius);

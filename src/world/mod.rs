@@ -25,10 +25,12 @@ pub struct World {
     pipeline: PhysicsPipeline,
     hooks: ContactHooks,
     parameters: IntegrationParameters,
-    tablets: Vec<RigidBodyHandle>,
+    tablets: Vec<(RigidBodyHandle, ColliderHandle)>,
     surfaces: Vec<(RigidBodyHandle, SharedShape)>,
     /// Poses that Rapier knows, by tablet.
     known: Vec<Motion>,
+    /// How far each tablet may move from there, m.
+    margins: Vec<f64>,
     reaches: Vec<f64>,
     near: Vec<(u32, u32)>,
 }
@@ -62,6 +64,7 @@ impl World {
             tablets: Vec::new(),
             surfaces: Vec::new(),
             known: Vec::new(),
+            margins: Vec::new(),
             reaches: Vec::new(),
             near: Vec::new(),
         }
@@ -74,7 +77,7 @@ impl World {
         let body = RigidBodyBuilder::kinematic_position_based().user_data(SURFACE);
         let handle = self.bodies.insert(body);
         let collider =
-            ColliderBuilder::new(shape.clone()).active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS).density(0.0);
+            ColliderBuilder::new(shape.clone()).collision_groups(InteractionGroups::none()).density(0.0);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.surfaces.push((handle, shape));
         self.surfaces.len() - 1
@@ -91,13 +94,12 @@ impl World {
         let properties = MassProperties::new(Vec3::ZERO, mass as f32, to_f32(inertia));
         let body = RigidBodyBuilder::dynamic().pose(pose(motion)).sleeping(true).user_data(index as u128);
         let handle = self.bodies.insert(body);
-        let margin = tuning::MARGIN * clump.bounding_radius();
         let collider = ColliderBuilder::new(SharedShape::compound(balls.collect()))
             .mass_properties(properties)
-            .contact_skin((0.5 * margin) as f32)
             .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS);
-        self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
-        self.tablets.push(handle);
+        let collider = self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
+        self.tablets.push((handle, collider));
+        self.margins.push(0.0);
         self.known.push(Motion { position: Vector3::repeat(f64::INFINITY), ..*motion });
         self.reaches.push(clump.bounding_radius());
         index
@@ -116,7 +118,7 @@ impl World {
         let (then, reach) = (&self.known[body], self.reaches[body]);
         let turned = (3.0 - now.rotation.dot(&then.rotation)).max(0.0).sqrt();
         let moved = (now.position - then.position).norm() + turned * reach;
-        moved / (0.5 * tuning::MARGIN * reach - tuning::ROUNDING)
+        moved / self.margins[body]
     }
 
     /// All pairs of bodies that can touch before [`World::must_search`] says so: smaller index first, sorted.
@@ -129,9 +131,15 @@ impl World {
         }
         let moved: Vec<bool> =
             motions.iter().enumerate().map(|(k, m)| !(self.used(k, m) < tuning::EARLY)).collect();
-        for (k, handle) in self.tablets.iter().enumerate().filter(|(k, _)| moved[*k]) {
-            self.bodies[*handle].set_position(pose(&motions[k]), false);
-            self.known[k] = motions[k];
+        for (k, (body, collider)) in self.tablets.iter().enumerate().filter(|(k, _)| moved[*k]) {
+            let (motion, reach) = (&motions[k], self.reaches[k]);
+            let speed = motion.velocity.norm() + motion.spin.norm() * reach;
+            let (least, most) = tuning::MARGIN;
+            let margin = (speed * tuning::HORIZON).clamp(least * reach, most * reach);
+            self.bodies[*body].set_position(pose(motion), false);
+            self.colliders[*collider].set_contact_skin(margin as f32);
+            self.known[k] = *motion;
+            self.margins[k] = margin - tuning::ROUNDING;
         }
         self.pipeline.step(
             Vec3::ZERO,

@@ -33,7 +33,7 @@ pub(crate) fn solid(name: &str, vertices: Vec<Vector3<f64>>, triangles: Vec<[u32
 
 /// A sphere of 20 · 4^`splits` panels.
 pub(crate) fn icosphere(radius: f64, splits: usize) -> TabletShape {
-    let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
+    let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     let mut vertices: Vec<Vector3<f64>> = (0..12)
         .map(|k| {
             let (s, t) = (if k & 1 == 0 { -1.0 } else { 1.0 }, if k & 2 == 0 { -golden } else { golden });

@@ -17,6 +17,7 @@ mod view;
 pub(super) use bed::{Bed, Canvas};
 pub use film::{PanelIds, film_thickness, film_volume_per_count};
 pub use ledger::{CoatLedger, Exposure, SprayLoss};
+pub(super) use raster::IdRaster;
 pub(super) use view::View;
 
 use super::{Observer, SprayZone};

@@ -51,6 +51,8 @@ pub(in crate::observers) struct PixelBox {
 pub(in crate::observers) struct IdRaster {
     width: usize,
     height: usize,
+    /// Last column and row.
+    last: [i32; 2],
     ids: Vec<u32>,
     depths: Vec<f32>,
     /// Depth of the furthest pixel of each tile, or more.
@@ -59,12 +61,15 @@ pub(in crate::observers) struct IdRaster {
 }
 
 impl IdRaster {
-    pub(in crate::observers) fn new([width, height]: [u32; 2]) -> Self {
-        let (width, height) = (width as usize, height as usize);
+    /// An empty screen of `pixels` columns and rows.
+    pub(in crate::observers) fn new(pixels: [u32; 2]) -> Self {
+        let last = pixels.map(|size| i32::try_from(size).unwrap_or(i32::MAX) - 1);
+        let [width, height] = pixels.map(|size| size as usize);
         let tiles_across = width.div_ceil(TILE);
         Self {
             width,
             height,
+            last,
             ids: vec![0; width * height],
             depths: vec![f32::INFINITY; width * height],
             tile_depths: vec![f32::INFINITY; tiles_across * height.div_ceil(TILE)],
@@ -139,8 +144,8 @@ impl IdRaster {
         }
         let [a, b, c] = if area < 0 { [a, c, b] } else { [a, b, c] };
         let [left, top] = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)].map(|v| first_pixel(v).max(0));
-        let right = a.x.max(b.x).max(c.x).div_euclid(SUBPIXELS).min(self.width as i32 - 1);
-        let bottom = a.y.max(b.y).max(c.y).div_euclid(SUBPIXELS).min(self.height as i32 - 1);
+        let right = a.x.max(b.x).max(c.x).div_euclid(SUBPIXELS).min(self.last[0]);
+        let bottom = a.y.max(b.y).max(c.y).div_euclid(SUBPIXELS).min(self.last[1]);
         if left > right || top > bottom {
             return;
         }

@@ -1,0 +1,108 @@
+//! What a user can type.
+
+use super::scene_arg::SceneArg;
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Tumbles tablets in a pan, sprays them, and predicts how uniform their coating gets.
+#[derive(Debug, Parser)]
+#[command(version, about)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run a scene: fill, settle, spray, and report
+    Run(RunArgs),
+    /// Say what a scene would do, what it leaves out, its time step and its cost
+    Check(CheckArgs),
+    /// Write the drum of a scene as an STL mesh, in mm
+    Drum(DrumArgs),
+    /// Make report.html of a run's folder anew
+    Report(ReportArgs),
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct RunArgs {
+    #[command(flatten)]
+    pub(super) scene: SceneArg,
+    /// Folder of the results [default: runs/NAME of the scene]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Coated time in seconds, in place of the scene's
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(super) seconds: Option<f64>,
+    /// Threads [default: one per processor]; results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Stop after this wall time (90s, 30m, 2h) and keep what there is
+    #[arg(long, value_name = "TIME", value_parser = wall_time)]
+    pub(super) max_wall: Option<Duration>,
+    /// No progress on stderr
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    pub(super) scene: SceneArg,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct DrumArgs {
+    #[command(flatten)]
+    pub(super) scene: SceneArg,
+    /// File to write
+    #[arg(long, value_name = "FILE", default_value = "drum.stl")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct ReportArgs {
+    /// Folder of a run
+    #[arg(value_name = "DIR")]
+    pub(super) directory: PathBuf,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
+    if seconds > 0.0 && f64::is_finite(seconds) { Ok(seconds) } else { Err("must be above 0".to_owned()) }
+}
+
+/// `90s`, `30m`, `2h`, or a number of seconds.
+fn wall_time(text: &str) -> Result<Duration, String> {
+    let (number, unit) = match text.char_indices().next_back() {
+        Some((end, 's')) => (&text[..end], 1.0),
+        Some((end, 'm')) => (&text[..end], 60.0),
+        Some((end, 'h')) => (&text[..end], 3600.0),
+        _ => (text, 1.0),
+    };
+    let seconds = number.parse::<f64>().ok().and_then(|n| Duration::try_from_secs_f64(n * unit).ok());
+    seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected a time such as 90s, 30m or 2h".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn times_have_units() {
+        assert_eq!(wall_time("2h"), Ok(Duration::from_secs(7200)));
+        assert_eq!(wall_time("1.5m"), Ok(Duration::from_secs(90)));
+        assert_eq!(wall_time("90"), wall_time("90s"));
+        for text in ["", "h", "-1s", "0s", "1d", "nan", "1e300h", "5µ"] {
+            assert!(wall_time(text).is_err(), "{text}");
+        }
+        assert!(seconds("0").is_err() && seconds("inf").is_err() && seconds("0.5") == Ok(0.5));
+    }
+}

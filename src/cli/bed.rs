@@ -1,0 +1,75 @@
+//! The bed of a run: where the spray has to point, and the figures of the record.
+
+use super::failure::Failure;
+use super::watch::Watch;
+use crate::observers::statistics::{BedFigures, BedStatistics, BodyInertia, Figure};
+use crate::observers::{BedSurface, Observer, SprayZone};
+use crate::report::{Bed, Results};
+use crate::scene::{Aim, Drum, Spray};
+use crate::stepping::{Frame, Simulation};
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Time over which the bed's surface is taken for aiming, s.
+const AIMING: f64 = 0.5;
+/// Length of the blocks that standard errors come from, s: about a passage down the surface.
+const BLOCK: f64 = 1.0;
+
+/// Collects where the bodies are.
+struct Positions(Vec<Vector3<f64>>);
+
+impl Observer for Positions {
+    fn observe(&mut self, frame: &Frame<'_>) {
+        self.0.extend(frame.bodies.iter().map(|body| body.position));
+    }
+}
+
+/// The zone that a spray covers. Aiming at the bed takes half a second of its motion.
+pub(super) fn aim(
+    simulation: &mut Simulation,
+    spray: &Spray,
+    watch: &mut Watch,
+) -> Result<SprayZone, Failure> {
+    match spray.aim {
+        Aim::Fixed { target, normal } => Ok(SprayZone::facing(target, normal, spray)),
+        Aim::Bed => {
+            let frames = (AIMING / simulation.scene().time.frame_interval).ceil() as u64;
+            let mut positions = Positions(Vec::new());
+            watch.begin("aiming", AIMING);
+            simulation.run(0, frames, &mut [&mut positions], &mut |progress| watch.note(progress))?;
+            let kinds = simulation.body_shapes();
+            let volume = kinds.iter().map(|&kind| simulation.shapes()[kind].volume).sum::<f64>();
+            let radius = (0.75 / PI * volume / kinds.len().max(1) as f64).cbrt();
+            Ok(BedSurface::fit(&positions.0, radius)?.zone(spray))
+        }
+    }
+}
+
+/// Statistics of the bed of a simulation.
+pub(super) fn statistics(simulation: &Simulation, drum: &Drum) -> BedStatistics {
+    let inertia = |(mass, &kind): (f64, &usize)| BodyInertia {
+        mass,
+        moments: simulation.shapes()[kind].inertia_per_mass * mass,
+    };
+    let bodies = simulation.masses().into_iter().zip(simulation.body_shapes()).map(inertia).collect();
+    BedStatistics::new(bodies, drum.diameter / 2.0, BLOCK)
+}
+
+/// Puts the figures into the results under the record's keys and units.
+pub(super) fn record(figures: &BedFigures, results: &mut Results) {
+    let mut put = |key: &str, figure: Option<Figure>, unit: f64| {
+        let error = figure.and_then(|f| f.standard_error);
+        results.standard_errors.extend(error.map(|error| (key.to_owned(), error * unit)));
+        figure.map(|figure| figure.mean * unit)
+    };
+    let degree = 1f64.to_degrees();
+    results.bed = Bed {
+        angle_of_repose_deg: put("angle_of_repose_deg", figures.repose_angle, degree).map(f64::abs),
+        mean_speed_m_per_s: put("mean_speed_m_per_s", Some(figures.mean_speed), 1.0),
+        kinetic_energy_j: put("kinetic_energy_J", Some(figures.kinetic_energy), 1.0),
+        rotational_energy_j: put("rotational_energy_J", Some(figures.rotational_energy), 1.0),
+        center_angle_deg: put("center_angle_deg", Some(figures.center_angle), degree),
+        surface_speed_m_per_s: put("surface_speed_m_per_s", figures.surface_speed, 1.0),
+        drum_torque_n_m: put("drum_torque_N_m", Some(figures.drum_torque), 1.0),
+    };
+}

@@ -1,0 +1,255 @@
+//! The coating of a run: counts while it runs, statistics at output times, results at its end.
+
+use crate::models::{AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, ModelError};
+use crate::observers::statistics::CoatingSeries;
+use crate::observers::{Coater, CoaterError, SprayZone, film_volume_per_count};
+use crate::report::vtp::{self, CoatedSurface};
+use crate::report::{self, Estimate, PanelRow, RunDirError, SeriesFile, TabletRow, ThicknessMap};
+use crate::scene::{Scene, Spray};
+use crate::shapes::{Panels, Region, TabletShape};
+use crate::stepping::Simulation;
+use std::collections::BTreeMap;
+
+/// Shortest block of time for the estimate of the limit, s: longer than a tablet takes round the bed.
+const SHORTEST_BLOCK: f64 = 2.0;
+/// Most blocks; each keeps a count for every panel of every tablet.
+const MOST_BLOCKS: u64 = 10;
+
+/// What the spray has put on the tablets.
+pub(super) struct Coating {
+    pub(super) coater: Coater,
+    /// k_V, m³.
+    pub(super) volume_per_count: f64,
+    /// Coated shapes, the one with the most tablets first.
+    shapes: Vec<CoatedShape>,
+    frame_interval: f64,
+    frames_per_block: u64,
+    film_density: f64,
+}
+
+struct CoatedShape {
+    shape: TabletShape,
+    panels: Panels,
+    bodies: Vec<usize>,
+    series: CoatingSeries,
+    /// Counts at the end of the last block, tablet after tablet.
+    blocked: Vec<u64>,
+    /// What was gained in each block.
+    blocks: Vec<Vec<u32>>,
+}
+
+/// Why coating cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CoatingError {
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    #[error(transparent)]
+    Folder(#[from] RunDirError),
+}
+
+/// What is known at the end.
+pub(super) struct Outcome {
+    /// Of the shape with the most tablets.
+    pub(super) main: report::Coating,
+    /// Of each shape, when there are several.
+    pub(super) shapes: BTreeMap<String, report::Coating>,
+    pub(super) efficiency: f64,
+    pub(super) identity_residual: f64,
+    pub(super) tablets: Vec<TabletRow>,
+    pub(super) panels: Vec<PanelRow>,
+    pub(super) surfaces: String,
+    /// Mean thickness on each body, m.
+    pub(super) film: Vec<f64>,
+}
+
+impl Coating {
+    /// Coats the bodies of a simulation that is about to be sprayed in `zone`, for `frames` frames.
+    pub(super) fn new(
+        simulation: &Simulation,
+        spray: &Spray,
+        zone: SprayZone,
+        frames: u64,
+    ) -> Result<Self, CoaterError> {
+        let scene: &Scene = simulation.scene();
+        let coater =
+            Coater::new(simulation.shapes(), simulation.body_shapes(), spray, zone, simulation.drum())?;
+        let interval = scene.time.frame_interval;
+        let shortest = (SHORTEST_BLOCK / interval).ceil() as u64;
+        let mut shapes: Vec<CoatedShape> = simulation
+            .shapes()
+            .iter()
+            .enumerate()
+            .filter_map(|(index, shape)| {
+                let kinds = simulation.body_shapes().iter().enumerate();
+                let bodies: Vec<usize> = kinds.filter(|(_, kind)| **kind == index).map(|(b, _)| b).collect();
+                let panels = shape.panels.clone().filter(|_| !bodies.is_empty())?;
+                Some(CoatedShape {
+                    shape: shape.clone(),
+                    blocked: vec![0; bodies.len() * panels.len()],
+                    panels,
+                    bodies,
+                    series: CoatingSeries::new(scene.outputs.series_interval),
+                    blocks: Vec::new(),
+                })
+            })
+            .collect();
+        shapes.sort_by_key(|shape| std::cmp::Reverse(shape.bodies.len()));
+        Ok(Self {
+            volume_per_count: film_volume_per_count(&spray.deposit, interval, coater.counts_per_frame()),
+            coater,
+            shapes,
+            frame_interval: interval,
+            frames_per_block: (frames / MOST_BLOCKS).max(shortest.min(frames)).max(1),
+            film_density: spray.deposit.film_density,
+        })
+    }
+
+    /// Does what is due after frame `done` (from 1). Returns CoV_intra when a row was due.
+    pub(super) fn note(&mut self, done: u64, file: &mut SeriesFile) -> Result<Option<f64>, CoatingError> {
+        let time = done as f64 * self.frame_interval;
+        let mut cov_intra = None;
+        if self.shapes.first().is_some_and(|main| main.series.is_due(time)) {
+            for (k, shape) in self.shapes.iter_mut().enumerate() {
+                let counts = shape.counts(&self.coater);
+                let map = CoatMap::new(&shape.panels.areas, &counts, self.volume_per_count)?;
+                let batch = shape.series.record(time, &map)?;
+                if let (Some(row), Some(_), true) = (shape.series.rows().last(), batch, k == 0) {
+                    file.add(row)?;
+                    cov_intra = Some(row.cov_intra);
+                }
+            }
+        }
+        if done.is_multiple_of(self.frames_per_block) {
+            for shape in &mut self.shapes {
+                shape.close_block(&self.coater);
+            }
+        }
+        Ok(cov_intra)
+    }
+
+    /// What came out so far, on bodies of `masses` (kg).
+    pub(super) fn outcome(&self, masses: &[f64]) -> Result<Outcome, ModelError> {
+        let loss = self.coater.ledger().loss();
+        let lost = loss.wall + loss.ends + loss.baffles + loss.empty;
+        let mut outcome = Outcome {
+            main: report::Coating::default(),
+            shapes: BTreeMap::new(),
+            efficiency: 1.0 - lost as f64 / self.coater.ledger().total().max(1) as f64,
+            identity_residual: 0.0,
+            tablets: Vec::new(),
+            panels: Vec::new(),
+            surfaces: String::new(),
+            film: vec![0.0; masses.len()],
+        };
+        let mut maps = Vec::new();
+        for (k, shape) in self.shapes.iter().enumerate() {
+            let counts = shape.counts(&self.coater);
+            let map = CoatMap::new(&shape.panels.areas, &counts, self.volume_per_count)?;
+            let batch = match BatchStatistics::of(&map) {
+                Err(ModelError::Uncoated) => continue,
+                batch => batch?,
+            };
+            let residual = batch.identities.worst().max(shape.series.worst_identity());
+            outcome.identity_residual = outcome.identity_residual.max(residual);
+            let coating = shape.coating(&batch, self.volume_per_count, self.block_time());
+            if k == 0 {
+                outcome.main = coating;
+            }
+            if self.shapes.len() > 1 {
+                outcome.shapes.insert(shape.shape.name.clone(), coating);
+            }
+            let area = map.tablet_area();
+            for (&body, tablet) in shape.bodies.iter().zip(&batch.tablets) {
+                outcome.film[body] = tablet.mean;
+                outcome.tablets.push(TabletRow {
+                    tablet: body,
+                    shape: shape.shape.name.clone(),
+                    mass_mg: 1e6 * masses[body],
+                    coat_mass_mg: 1e6 * self.film_density * area * tablet.mean,
+                    mean_thickness_um: 1e6 * tablet.mean,
+                    cov_intra: tablet.cov(),
+                });
+            }
+            outcome.panels.extend(shape.panel_rows(&batch));
+            maps.push(shape.thickness_map(&batch));
+        }
+        outcome.tablets.sort_by_key(|row| row.tablet);
+        let surfaces: Vec<_> = maps.iter().map(|map| CoatedSurface { map, representative_um: &[] }).collect();
+        outcome.surfaces = vtp::write(&surfaces);
+        Ok(outcome)
+    }
+
+    /// Length of a block, s.
+    fn block_time(&self) -> f64 {
+        self.frames_per_block as f64 * self.frame_interval
+    }
+
+    /// Panels of each coated shape.
+    pub(super) fn panels(&self) -> BTreeMap<String, usize> {
+        self.shapes.iter().map(|s| (s.shape.name.clone(), s.panels.len())).collect()
+    }
+}
+
+impl CoatedShape {
+    /// Counts of all tablets, row by row.
+    fn counts(&self, coater: &Coater) -> Vec<u64> {
+        self.bodies.iter().flat_map(|&body| coater.counts(body)).copied().collect()
+    }
+
+    fn close_block(&mut self, coater: &Coater) {
+        let now = self.counts(coater);
+        self.blocks.push(now.iter().zip(&self.blocked).map(|(now, before)| (now - before) as u32).collect());
+        self.blocked = now;
+    }
+
+    fn coating(&self, batch: &BatchStatistics, volume_per_count: f64, block_time: f64) -> report::Coating {
+        let maps: Result<Vec<_>, _> =
+            self.blocks.iter().map(|gain| CoatMap::new(&self.panels.areas, gain, volume_per_count)).collect();
+        let duration = self.blocks.len() as f64 * block_time;
+        // One tablet, or no whole block yet, has no estimate.
+        let limit =
+            maps.and_then(|maps| AsymptoteEstimate::from_blocks(&maps, duration, &Bootstrap::default())).ok();
+        report::Coating {
+            cov_intra: Some(batch.moments),
+            cov_inter: Some(batch.inter),
+            cov_intra_asymptote: limit.map(|limit| Estimate {
+                value: limit.asymptote.cov(),
+                low: limit.interval.low,
+                high: limit.interval.high,
+                noise_time_s: limit.asymptote.noise_time,
+            }),
+            cov_intra_orientation_only: None,
+            mean_thickness_um: Some(1e6 * batch.mean_thickness),
+        }
+    }
+
+    fn panel_rows<'a>(&'a self, batch: &'a BatchStatistics) -> impl Iterator<Item = PanelRow> + 'a {
+        (0..self.panels.len()).map(|k| {
+            let (center, normal) = (self.panels.centroids[k] * 1e3, self.panels.normals[k]);
+            PanelRow {
+                panel: k,
+                shape: self.shape.name.clone(),
+                region: if self.panels.regions[k] == Region::Cap { "cap" } else { "band" }.to_owned(),
+                x_mm: center.x,
+                y_mm: center.y,
+                z_mm: center.z,
+                nx: normal.x,
+                ny: normal.y,
+                nz: normal.z,
+                area_mm2: 1e6 * self.panels.areas[k],
+                average_um: 1e6 * batch.average[k],
+                representative_um: None,
+            }
+        })
+    }
+
+    fn thickness_map(&self, batch: &BatchStatistics) -> ThicknessMap {
+        ThicknessMap {
+            vertices_mm: self.panels.vertices.iter().map(|v| (v * 1e3).into()).collect(),
+            triangles: self.panels.triangles.clone(),
+            areas_mm2: self.panels.areas.iter().map(|area| 1e6 * area).collect(),
+            on_cap: self.panels.regions.iter().map(|&region| region == Region::Cap).collect(),
+            average_um: batch.average.iter().map(|h| 1e6 * h).collect(),
+        }
+    }
+}

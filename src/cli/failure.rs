@@ -1,0 +1,66 @@
+//! Why a command did not do what it was asked for.
+
+use super::coating::CoatingError;
+use super::guards::Refusal;
+use crate::models::ModelError;
+use crate::observers::{AimError, CoaterError};
+use crate::report::{ReportError, RunDirError};
+use crate::scene::SceneFaults;
+use crate::shapes::ShapeError;
+use crate::stepping::SimulationError;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Exit code of a run that was asked to stop (`EX_TEMPFAIL` of sysexits.h: try again).
+const STOPPED: u8 = 75;
+
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    #[error(transparent)]
+    Scene(#[from] SceneFaults),
+    #[error("the scene has no drum")]
+    NoDrum,
+    #[error("refused: {0}")]
+    Refused(#[from] Refusal),
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    #[error(transparent)]
+    Folder(#[from] RunDirError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    #[error(transparent)]
+    Aim(#[from] AimError),
+    #[error(transparent)]
+    Coater(#[from] CoaterError),
+    #[error("coating statistics: {0}")]
+    Model(#[from] ModelError),
+    #[error(transparent)]
+    Coating(#[from] CoatingError),
+    #[error("cannot start threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    #[error("cannot watch for Ctrl-C: {0}")]
+    Signals(#[from] ctrlc::Error),
+    #[error("cannot write: {0}")]
+    Output(std::io::Error),
+    #[error("stopped on request; what was simulated is in {}", .0.display())]
+    Stopped(PathBuf),
+}
+
+impl Failure {
+    pub(super) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Stopped(_) => STOPPED,
+            Self::Folder(RunDirError::Write { .. }) => 1,
+            Self::Scene(_)
+            | Self::NoDrum
+            | Self::Refused(_)
+            | Self::Shape(_)
+            | Self::Folder(_)
+            | Self::Report(_)
+            | Self::Simulation(SimulationError::Shape(_) | SimulationError::Full { .. }) => 2,
+            _ => 1,
+        })
+    }
+}

@@ -1,0 +1,86 @@
+//! What is refused before a run, and what is warned of before and after it.
+
+use crate::scene::Scene;
+use crate::shapes::TabletShape;
+use crate::stepping::TimeStep;
+
+/// Fewest steps in a contact. Velocity Verlet is stable down to π; at 8 the restitution is off by some percent.
+const FEWEST_STEPS: f64 = 8.0;
+/// Steps in a contact below which its restitution is off by about half a percent or more.
+const FEW_STEPS: f64 = 20.0;
+/// Farthest that a body may move in a step, of its smallest sphere's radius.
+const FARTHEST_TRAVEL: f64 = 0.1;
+/// Overlap over radius above which a contact is no longer small, as Hertz theory takes it.
+const LARGE_OVERLAP: f64 = 0.05;
+
+/// A time step that cannot give results.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub(super) enum Refusal {
+    #[error(
+        "the time step leaves {0:.1} steps in a contact, at least {FEWEST_STEPS} are needed: lower time.step"
+    )]
+    StepsPerContact(f64),
+    #[error(
+        "a body moves by {0:.2} of a sphere's radius in a step, at most {FARTHEST_TRAVEL} is safe: lower time.step"
+    )]
+    Travel(f64),
+}
+
+/// Something that limits confidence in a result, with advice.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub(super) enum Warning {
+    #[error("only {0:.1} steps in a contact: restitution is off by a percent or so; lower time.step")]
+    FewSteps(f64),
+    #[error(
+        "overlaps reach {:.0} % of a sphere's radius: contacts are softer than those of real tablets; raise \
+         shear_modulus to see whether results change",
+        100.0 * .0
+    )]
+    LargeOverlap(f64),
+}
+
+/// Refuses a step that cannot be stable.
+pub(super) fn refuse(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> Result<(), Refusal> {
+    if step.steps_per_contact() < FEWEST_STEPS {
+        return Err(Refusal::StepsPerContact(step.steps_per_contact()));
+    }
+    let smallest = shapes.iter().map(|s| s.clump.smallest_radius()).fold(f64::INFINITY, f64::min);
+    let travel = scene.time.impact_speed * step.step / smallest;
+    if travel > FARTHEST_TRAVEL { Err(Refusal::Travel(travel)) } else { Ok(()) }
+}
+
+/// Warnings of a step and of the largest overlap over radius, expected or met.
+pub(super) fn warnings(step: &TimeStep, overlap: f64) -> Vec<Warning> {
+    let few = (step.steps_per_contact() < FEW_STEPS).then(|| Warning::FewSteps(step.steps_per_contact()));
+    let large = (overlap > LARGE_OVERLAP).then_some(Warning::LargeOverlap(overlap));
+    few.into_iter().chain(large).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_and_overlaps_are_judged() {
+        let step = |n: f64| TimeStep {
+            step: 1e-4,
+            contact_time: 1e-4 * n,
+            rayleigh_time: 1e-3,
+            impact_overlap: 0.0,
+        };
+        assert!(warnings(&step(30.0), 0.02).is_empty());
+        assert_eq!(warnings(&step(12.0), 0.02), [Warning::FewSteps(12.0)]);
+        let told = warnings(&step(30.0), 0.21)[0].to_string();
+        assert!(told.starts_with("overlaps reach 21 % of a sphere's radius"), "{told}");
+
+        let text = crate::scene::SceneText::embedded("sphere", &[]).unwrap();
+        let scene = text.scene().unwrap();
+        let shapes: Vec<_> = scene.shapes.iter().map(|s| TabletShape::build(s, false).unwrap()).collect();
+        assert_eq!(refuse(&scene, &shapes, &step(30.0)), Ok(()));
+        assert_eq!(refuse(&scene, &shapes, &step(7.9)), Err(Refusal::StepsPerContact(7.9)));
+        let long = TimeStep { step: 1e-2, contact_time: 1.0, ..step(1.0) };
+        assert!(
+            matches!(refuse(&scene, &shapes, &long), Err(Refusal::Travel(t)) if (t - 0.457).abs() < 1e-3)
+        );
+    }
+}

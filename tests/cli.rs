@@ -1,0 +1,223 @@
+//! The program as a user runs it: exit codes, messages, and what lies in the run folder.
+
+use assert_cmd::Command;
+use assert_cmd::assert::Assert;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+/// A few coarse spheres in a small drum, sprayed from above: a second of work.
+const SMALL: &str = r#"(
+    format: 1,
+    title: "a few balls",
+    materials: {"tablet": (shear_modulus: MPa(1), poisson: 0.25)},
+    pairs: [(between: ("tablet", "tablet"), friction: 0.5, restitution: 0.5)],
+    shapes: {"ball": (recipe: Sphere(diameter: Mm(20)), panels: 80)},
+    batches: [(shape: "ball", material: "tablet", tablet_mass: G(4), count: 12)],
+    drum: (diameter: Mm(120), width: Mm(60), speed: Rpm(40), material: "tablet", facets: 24),
+    time: (step: PerContact(20), settle: For(Ms(100)), duration: Ms(400), frame_interval: Ms(20)),
+    spray: (
+        spanwise: Mm(50), streamwise: Mm(60), pixels: (64, 64),
+        aim: Fixed(target: Mm(10, -40, 0), normal: (0, 1, 0)), deposit: (rate: GPerMin(7.5), solids: 0.2),
+    ),
+    outputs: (series_interval: Ms(100)),
+)"#;
+
+fn pancoat(arguments: &[&str]) -> Assert {
+    Command::cargo_bin("pancoat").expect("is built").args(arguments).assert()
+}
+
+fn stdout(assert: &Assert) -> String {
+    String::from_utf8(assert.get_output().stdout.clone()).expect("is text")
+}
+
+fn stderr(assert: &Assert) -> String {
+    String::from_utf8(assert.get_output().stderr.clone()).expect("is text")
+}
+
+fn record(folder: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(folder.join("run.json")).expect("has a record"))
+        .expect("is JSON")
+}
+
+/// A temporary folder with the small scene, its path, and the path of a run folder in it.
+fn small() -> (tempfile::TempDir, String, String) {
+    let folder = tempfile::tempdir().expect("can be made");
+    let scene = folder.path().join("small.ron");
+    fs::write(&scene, SMALL).expect("can be written");
+    let out = folder.path().join("out").display().to_string();
+    let scene = scene.display().to_string();
+    (folder, scene, out)
+}
+
+#[test]
+fn a_run_leaves_a_whole_folder() {
+    let (_folder, scene, out) = small();
+    let assert = pancoat(&["run", &scene, "--out", &out, "--set", "seed=7"]).success();
+    assert_eq!(stdout(&assert).trim(), out);
+    assert!(stderr(&assert).contains("spraying: "), "{}", stderr(&assert));
+    let out = Path::new(&out);
+
+    let text = fs::read_to_string(out.join("scene.ron")).expect("has its scene");
+    assert!(text.contains("seed: 7") && text.starts_with(SMALL.split(',').next().expect("has a start")));
+    let record = record(out);
+    assert_eq!((&record["status"], &record["seed"]), (&"done".into(), &7.into()));
+    assert_eq!(record["scene_hash"], blake3::hash(text.as_bytes()).to_hex().to_string());
+    assert_eq!(record["derived"]["bodies"], 12);
+    for key in ["cov_intra", "cov_inter", "mean_speed_m_per_s", "kinetic_energy_J", "spray_efficiency"] {
+        assert!(record["results"][key].as_f64().is_some_and(|x| x > 0.0), "{key}: {}", record["results"]);
+    }
+    for key in ["wall_s", "simulated_s", "steps"] {
+        assert!(record["performance"][key].as_f64().is_some_and(|x| x > 0.0), "{key}");
+    }
+
+    let rows = |name: &str| {
+        let mut reader = csv::Reader::from_path(out.join(name)).expect("is a table");
+        let columns = reader.headers().expect("has columns").iter().collect::<Vec<_>>().join(",");
+        let rows = reader.records().map(|row| row.expect("is a row")).collect::<Vec<_>>();
+        (columns, rows)
+    };
+    let (columns, series) = rows("series.csv");
+    assert_eq!(
+        columns,
+        "time_s,cov_intra,cov_intra_each,cov_intra_average_tablet,cov_total,cov_inter,sd_cov_intra,mean_thickness_um"
+    );
+    assert_eq!(
+        series.iter().map(|row| row[0].parse().expect("a time")).collect::<Vec<f64>>(),
+        [0.1, 0.2, 0.3, 0.4]
+    );
+    assert_eq!(series[3][1].parse::<f64>().ok(), record["results"]["cov_intra"].as_f64());
+    assert_eq!(rows("tablets.csv").1.len(), 12);
+    let (columns, panels) = rows("panels.csv");
+    assert_eq!(columns, "panel,shape,region,x_mm,y_mm,z_mm,nx,ny,nz,area_mm2,average_um,representative_um");
+    assert_eq!(record["derived"]["panels"]["ball"], panels.len());
+
+    // All solids that hit tablets are on them: 7.5 g/min × 20 % × 0.4 s × efficiency.
+    let coat: f64 = rows("tablets.csv").1.iter().map(|row| row[3].parse::<f64>().expect("a mass")).sum();
+    let sprayed_mg =
+        7.5 / 60.0 * 0.2 * 0.4 * 1e3 * record["results"]["spray_efficiency"].as_f64().expect("is given");
+    assert!((coat / sprayed_mg - 1.0).abs() < 1e-9, "{coat} mg on tablets, {sprayed_mg} mg sprayed on them");
+
+    // The report can be made anew from what is stored, and comes out the same.
+    let first = fs::read(out.join("report.html")).expect("has a report");
+    fs::remove_file(out.join("report.html")).expect("can be removed");
+    pancoat(&["report", &out.display().to_string()]).success();
+    assert_eq!(fs::read(out.join("report.html")).expect("has a report"), first);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bits_on_any_number_of_threads() {
+    let (folder, scene, _) = small();
+    let hashes = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        pancoat(&["run", &scene, "--threads", threads, "--out", &out.display().to_string(), "--quiet"])
+            .success();
+        let record = record(&out);
+        (record["state_hash"].clone(), record["results"].clone())
+    });
+    assert!(hashes[0].0.is_string());
+    assert_eq!(hashes[0], hashes[1]);
+}
+
+#[test]
+fn a_folder_of_another_scene_is_left_alone() {
+    let (_folder, scene, out) = small();
+    let run = |seconds: &str| {
+        pancoat(&["run", &scene, "--set", "spray=None", "--seconds", seconds, "--out", &out, "--quiet"])
+    };
+    assert_eq!(stderr(&run("0.05").success()), "");
+    let before = record(Path::new(&out));
+    let refused = run("0.1").code(2);
+    assert!(stderr(&refused).contains("holds the run of another scene"), "{}", stderr(&refused));
+    assert_eq!(record(Path::new(&out)), before);
+    run("0.05").success();
+}
+
+#[test]
+fn faults_of_the_input_exit_with_2() {
+    let (folder, scene, out) = small();
+    let wrong = |arguments: &[&str], message: &str| {
+        let assert = pancoat(arguments).code(2);
+        assert!(stderr(&assert).contains(message), "{arguments:?}: {}", stderr(&assert));
+        assert_eq!(stdout(&assert), "");
+    };
+    wrong(&["run", &scene, "--out", &out, "--set", "drum.sped=Rpm(3)"], "(did you mean `speed`?)");
+    wrong(&["check", "absent.ron"], "absent.ron: cannot read the scene");
+    wrong(&["check", "oval"], "no scene of that name is built in; known: round, sphere");
+    wrong(&["run", &scene, "--seconds", "0"], "must be above 0");
+    wrong(&["run", &scene, "--max-wall", "soon"], "expected a time such as 90s, 30m or 2h");
+    wrong(
+        &["run", &scene, "--out", &out, "--set", "time.step=Fixed(Ms(20))"],
+        "refused: the time step leaves",
+    );
+    wrong(&["drum", &scene, "--set", "drum=None", "--set", "batches=[]"], "nothing that moves");
+    wrong(&["report", &folder.path().display().to_string()], "cannot read");
+    assert!(!Path::new(&out).exists(), "a refused run leaves no folder");
+}
+
+#[test]
+fn check_says_what_is_on_and_what_is_left_out() {
+    let on = stdout(&pancoat(&["check", "round"]).success());
+    for line in [
+        "batch               769 tablets \"round\" of 1300 mg, 50 spheres",
+        "drum                250 mm across, 100 mm wide, 22.0 rpm, 4 baffles",
+        "spray               76.2 x 38.1 mm, 512 x 256 pixels, square to the bed",
+        "steps per contact   30.",
+        "Rayleigh fraction",
+        "static overlap",
+        "memory              about",
+    ] {
+        assert!(on.contains(line), "{line} is not in\n{on}");
+    }
+    assert!(!on.contains("left out"), "{on}");
+    let off =
+        stdout(&pancoat(&["check", "sphere", "--set", "spray=None", "--set", "drum.baffles=None"]).success());
+    for line in
+        ["left out            panels, coater", "left out            baffles", "left out            clump"]
+    {
+        assert!(off.contains(line), "{line} is not in\n{off}");
+    }
+}
+
+#[test]
+fn the_drum_is_written_as_a_mesh() {
+    let (folder, scene, _) = small();
+    let file = folder.path().join("drum.stl");
+    pancoat(&["drum", &scene, "--out", &file.display().to_string()]).success();
+    let mesh = pancoat::shapes::read_stl(&file, 1e-3).expect("is STL");
+    let widest = mesh.vertices.iter().map(|v| v.x.hypot(v.y)).fold(0.0, f64::max);
+    assert!((widest - 0.06).abs() < 1e-3, "{widest}");
+}
+
+#[test]
+fn a_deadline_stops_with_75_and_keeps_what_there_is() {
+    let (_folder, scene, out) = small();
+    pancoat(&["run", &scene, "--seconds", "1000", "--max-wall", "1s", "--out", &out]).code(75);
+    let record = record(Path::new(&out));
+    assert_eq!(record["status"], "stopped");
+    let coated = record["performance"]["coated_s"].as_f64().expect("is given");
+    assert!(coated > 0.0 && coated < 1000.0, "{coated}");
+    assert!(record["results"]["cov_intra"].is_f64());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_stops_with_75() {
+    let (_folder, scene, out) = small();
+    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("pancoat"))
+        .args(["run", &scene, "--seconds", "1000", "--out", &out, "--quiet"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("starts");
+    let begun = Instant::now();
+    while !Path::new(&out).join("series.csv").exists() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(kill.is_ok_and(|status| status.success()));
+    assert_eq!(child.wait().expect("ends").code(), Some(75));
+    assert_eq!(record(Path::new(&out))["status"], "stopped");
+}

@@ -1,0 +1,90 @@
+//! What the values of a scene become.
+
+use approx::assert_relative_eq;
+use pancoat::scene::{
+    Aim, BoundarySurface, Cap, ContactMode, DampingMass, Recipe, Scene, Settle, StepChoice, TangentialLaw,
+};
+use std::f64::consts::PI;
+
+#[test]
+fn the_round_scene_is_the_papers_case() {
+    let scene = Scene::embedded("round").expect("is embedded");
+    assert_eq!(scene.batches[0].count, 769);
+    assert_eq!(scene.batches[0].tablet_mass, 1.3e-3);
+    assert_eq!(scene.materials[0].shear_modulus, 1e6);
+    assert_eq!(scene.materials[1].shear_modulus, 3e6);
+    let pair = scene.pairs.get(1, 0);
+    assert_eq!((pair.friction, pair.restitution), (0.5, 0.5));
+    assert_eq!(scene.gravity.y, -9.81);
+    let Recipe::Round { diameter, band, cap: Cap::Compound { height, exponent } } = scene.shapes[0].recipe
+    else {
+        panic!("is a round tablet with a compound cap")
+    };
+    assert_eq!((diameter, exponent), (15.9e-3, 2.8823));
+    assert_relative_eq!(band, 3.2452e-3, max_relative = 1e-15);
+    assert_relative_eq!(height, 1.6973e-3, max_relative = 1e-15);
+    let drum = scene.drum.expect("has a drum");
+    assert_eq!((drum.diameter, drum.width, drum.facets), (0.25, 0.1, 90));
+    assert_relative_eq!(drum.speed, 22.0 * 2.0 * PI / 60.0, max_relative = 1e-15);
+    let baffles = drum.baffles.expect("has baffles");
+    assert_eq!((baffles.count, baffles.height, baffles.thickness), (4, 0.012, 0.006));
+    assert_relative_eq!(baffles.tilt, PI / 9.0, max_relative = 1e-15);
+    assert_eq!(scene.time.step, StepChoice::PerContact(30.0));
+    assert_eq!(scene.time.settle, Settle::Auto { at_most: 20.0 });
+    assert_eq!((scene.time.duration, scene.time.frame_interval), (20.0, 0.02));
+    let spray = scene.spray.expect("has a spray");
+    assert_eq!((spray.spanwise, spray.streamwise, spray.distance), (0.0762, 0.0381, 0.05));
+    assert_eq!((spray.aim, spray.pixels), (Aim::Bed, [512, 256]));
+    assert_relative_eq!(spray.deposit.rate, 1.25e-4, max_relative = 1e-15); // 7.5 g/min = 0.125 g/s
+}
+
+#[test]
+fn every_key_has_its_effect() {
+    let scene = Scene::load(&super::folder("tests/scenes/good/everything.ron"), &[]).expect("loads");
+    assert_eq!(scene.title, "all (\"keys\"), // not a comment");
+    assert_eq!((scene.seed, scene.gravity.y), (42, -9.80665));
+    assert_eq!(scene.materials[1].name, "steel, [x]");
+    assert_eq!((scene.materials[1].shear_modulus, scene.materials[1].poisson), (8e10, -0.1));
+    assert_eq!(scene.pairs.get(0, 1).restitution, 1e-6);
+    assert_eq!(scene.pairs.get(0, 0).friction, 0.0);
+    let Recipe::Round { diameter, band, .. } = scene.shapes[2].recipe else { panic!("is round") };
+    assert_eq!((diameter, band), (0.0127, 0.003));
+    let Recipe::Clump { path, inertia_per_mass } = &scene.shapes[3].recipe else { panic!("is a clump") };
+    assert!(path.ends_with("good/clump.txt"));
+    assert_relative_eq!(inertia_per_mass[2], 2.76e-5, max_relative = 1e-15);
+    assert_eq!((scene.shapes[0].spheres, scene.shapes[1].spheres, scene.shapes[3].spheres), (1, 50, 0));
+    assert_eq!((scene.batches[0].count, scene.batches[1].count, scene.batches[1].shape), (100, 100, 2));
+    assert_eq!(scene.drum.as_ref().map(|d| d.speed), Some(-2.3));
+    let turned = scene.bodies[0].orientation;
+    assert_relative_eq!(turned.angle(), PI / 6.0, max_relative = 1e-14);
+    assert_relative_eq!(turned.axis().expect("is turned").x, 0.5_f64.sqrt(), max_relative = 1e-14);
+    assert_relative_eq!(scene.bodies[0].spin.z, 2.0 * PI, max_relative = 1e-15);
+    assert_eq!(scene.bodies[1].orientation.angle(), 0.0);
+    assert_eq!(scene.bodies[1].position.x, 0.01);
+    let BoundarySurface::Plane { normal, .. } = scene.boundaries[0].surface else { panic!("is a plane") };
+    assert_eq!(normal.y, 1.0);
+    assert_eq!(scene.boundaries[1].velocity.x, 1e-3);
+    let BoundarySurface::Mesh { scale, .. } = scene.boundaries[2].surface else { panic!("is a mesh") };
+    assert_eq!(scale, 1e-3);
+    assert_eq!(scene.contact.mode, ContactMode::Impulse);
+    assert_eq!(scene.contact.tangential, TangentialLaw::Rescaled);
+    assert_eq!(scene.contact.damping_mass, DampingMass::Contact);
+    assert!(scene.contact.no_tension);
+    assert_eq!(scene.time.step, StepChoice::Fixed(5e-5));
+    assert_eq!(scene.time.settle, Settle::Auto { at_most: 5.0 });
+    assert_eq!((scene.time.duration, scene.time.impact_speed), (6.0, 0.5));
+    assert!(scene.spray.is_none());
+    assert_eq!(scene.outputs.series_interval, 0.1);
+    assert!(!scene.outputs.report && !scene.outputs.picture && scene.outputs.statistics);
+}
+
+#[test]
+fn left_out_sections_have_the_documented_defaults() {
+    let scene = Scene::load(&super::folder("scenes/free.ron"), &[]).expect("loads");
+    assert!(scene.drum.is_none() && scene.spray.is_none() && scene.batches.is_empty());
+    assert_eq!((scene.seed, scene.gravity.norm()), (1, 0.0));
+    assert_eq!(scene.time.settle, Settle::For(0.0));
+    assert_eq!(scene.contact, pancoat::scene::ContactSettings::default());
+    assert_eq!(scene.outputs.series_interval, 0.5);
+    assert!(scene.outputs.report && scene.outputs.picture && scene.outputs.statistics);
+}
