@@ -15,6 +15,11 @@ pub(super) fn significant(value: f64, digits: u8) -> String {
     format!("{value:.decimals$}")
 }
 
+/// A value with two decimals and a true minus sign.
+pub(super) fn signed(value: f64) -> String {
+    format!("{value:.2}").replace('-', "−")
+}
+
 /// A share as percent with three significant digits.
 pub(super) fn percent(share: f64) -> String {
     format!("{} %", significant(100.0 * share, 3))
@@ -51,6 +56,7 @@ mod tests {
         assert_eq!(significant(4.5e-14, 3), "4.50 · 10⁻¹⁴");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(f64::NAN, 3), "–");
+        assert_eq!(signed(-0.567), "−0.57");
         assert_eq!(percent(0.2971), "29.7 %");
         assert_eq!(
             (time(60.0), time(600.0), time(7200.0)),

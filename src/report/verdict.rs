@@ -1,7 +1,7 @@
 //! The report in a few sentences.
 
 use super::ReportData;
-use super::number::{percent, significant, time};
+use super::number::{percent, signed, significant, time};
 use crate::models::{Asymptote, PowerLaw};
 
 /// CoV_inter follows a power law after this coated time, s (Freireich et al. 2015, section 8.1).
@@ -72,6 +72,12 @@ impl Verdict {
                         .push(format!("{name}The interval of the limit is wider than a fifth of its value."));
                 }
             }
+            if let Some(without) = shape.orientation_only {
+                sentences.push(format!(
+                    "{name}Without the shadows of neighbours that limit would be {}.",
+                    percent(without)
+                ));
+            }
             if let Some(means) = shape.map.as_ref().and_then(super::ThicknessMap::regions) {
                 sentences.push(format!(
                     "{name}Caps carry {} times the thickness of the band.",
@@ -79,20 +85,26 @@ impl Verdict {
                 ));
             }
         }
-        match inter_law(data) {
-            Some(law) => {
+        let fitted = data.shapes.iter().find_map(|shape| shape.inter_exponent);
+        let law =
+            fitted.map(|e| (e.value, format!("{} to {}", signed(e.low), signed(e.high)))).or_else(|| {
+                inter_law(data).map(|law| (law.exponent, format!("± {}", significant(law.exponent_error, 1))))
+            });
+        match law {
+            Some((power, error)) => {
                 sentences.push(format!(
-                    "The variation between tablets falls as time to the power {:.2} ± {} (−0.50 for well-mixed tablets).",
-                    law.exponent,
-                    significant(law.exponent_error, 1)
+                    "The variation between tablets falls as time to the power {} ({error}; −0.50 for well-mixed tablets).",
+                    signed(power)
                 ));
-                if (law.exponent + 0.5).abs() > 0.05 {
-                    doubts.push("The variation between tablets does not fall as the root of time: they are not yet mixed.".into());
+                if fitted.is_some_and(|e| e.low > -0.5 || e.high < -0.5) {
+                    doubts.push("The variation between tablets does not fall as the root of time: they do not mix well.".into());
                 }
             }
-            None => doubts.push(
-                "The run is too short to check how the variation between tablets falls with time.".into(),
-            ),
+            None => {
+                doubts.push(
+                    "The run is too short to check how the variation between tablets falls with time.".into(),
+                );
+            }
         }
         if data.identity_residual.is_some_and(|r| r > 1e-9) {
             doubts

@@ -5,14 +5,12 @@
 //! than that.
 
 mod bed;
-mod blocks;
 mod figure;
 mod passes;
 mod series;
 mod surface;
 
 pub use bed::{BedFigures, BedStatistics, BodyInertia};
-pub use blocks::CoatingBlocks;
 pub use figure::Figure;
 pub use passes::{PassFigures, SprayPasses};
 pub use series::{CoatingSeries, TabletRow};

@@ -28,10 +28,12 @@ pub struct PassFigures {
     pub order: OrderTensor,
 }
 
-/// Watches which tablets are in the spray, and how they lie there.
+/// Watches which tablets of one shape are in the spray, and how they lie there.
 #[derive(Debug, Clone)]
 pub struct SprayPasses {
     tablets: Vec<Tablet>,
+    /// Place of each body among the tablets; bodies of other shapes have none.
+    place: Vec<Option<usize>>,
     /// A pass ends when a tablet has been out of the spray for so many frames.
     gap: u64,
     frames: u64,
@@ -59,10 +61,16 @@ struct Tablet {
 const SAMPLE: usize = 20_000;
 
 impl SprayPasses {
-    /// Watches so many tablets. Shadows that hide a tablet for less than `gap` frames do not end its pass.
-    pub fn new(tablets: usize, gap: u64, seed: u64) -> Self {
+    /// Watches the tablets that are these `bodies` of the frames. Shadows that hide a tablet for at most `gap` frames do not end
+    /// its pass; `seed` chooses which directions are kept.
+    pub fn new(bodies: &[usize], gap: u64, seed: u64) -> Self {
+        let mut place = vec![None; bodies.iter().max().map_or(0, |last| last + 1)];
+        for (tablet, &body) in bodies.iter().enumerate() {
+            place[body] = Some(tablet);
+        }
         Self {
-            tablets: vec![Tablet::default(); tablets],
+            tablets: vec![Tablet::default(); bodies.len()],
+            place,
             gap,
             frames: 0,
             duration: 0.0,
@@ -77,15 +85,16 @@ impl SprayPasses {
         }
     }
 
-    /// Takes note of a frame and of what the spray hit in it; bodies beyond the number of tablets are passed over.
+    /// Takes note of a frame and of what the spray hit in it; bodies that are not its tablets are passed over.
     pub fn observe(&mut self, frame: &Frame<'_>, zone: &SprayZone, exposed: &[Exposure]) {
         self.frames += 1;
         if let Some(last) = self.last_time.replace(frame.time) {
             self.duration += frame.time - last;
         }
         for &Exposure { body, counts } in exposed {
-            let Some(tablet) = self.tablets.get_mut(body) else { continue };
-            if tablet.last == 0 || self.frames - tablet.last > self.gap {
+            let Some(place) = self.place.get(body).copied().flatten() else { continue };
+            let tablet = &mut self.tablets[place];
+            if tablet.last == 0 || self.frames - tablet.last > self.gap + 1 {
                 tablet.passes += 1;
             }
             tablet.seen += 1;
@@ -165,7 +174,7 @@ mod tests {
 
     #[test]
     fn two_tablets_one_passing_twice_one_lying_there() {
-        let mut passes = SprayPasses::new(3, 2, 1);
+        let mut passes = SprayPasses::new(&[0, 1, 2], 1, 1);
         // Lies with its axis to the nozzle; moves down the slope at 0.2 m/s.
         let flat = UnitQuaternion::rotation_between(&Vector3::z(), &Vector3::y()).unwrap();
         let body = |speed: f64| BodyState {
@@ -203,7 +212,7 @@ mod tests {
 
     #[test]
     fn the_sample_stays_bounded_and_fair() {
-        let mut passes = SprayPasses::new(1, 0, 7);
+        let mut passes = SprayPasses::new(&[0], 0, 7);
         let total = 5 * SAMPLE;
         for k in 0..total {
             passes.appearances += 1;
