@@ -123,9 +123,8 @@ fn rule(
 
 /// `CoV_intra` with a real subscript.
 fn html_name(name: &str) -> String {
-    ["intra", "inter"]
-        .iter()
-        .fold(name.to_string(), |n, s| n.replace(&format!("CoV_{s}"), &format!("CoV<sub>{s}</sub>")))
+    let subscript = |name: String, s: &str| name.replace(&format!("CoV_{s}"), &format!("CoV<sub>{s}</sub>"));
+    ["intra,i", "intra", "inter"].into_iter().fold(name.to_string(), subscript)
 }
 
 fn skip() -> plotly::common::HoverInfo {

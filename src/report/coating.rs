@@ -1,7 +1,7 @@
 //! The sections of a coated shape: where its coating lies, and how its tablets differ.
 
 use super::html::{chart, escape, section, table};
-use super::number::{percent, signed, significant};
+use super::number::{signed, significant};
 use super::{Exponent, ShapeCoating, ThicknessMap, map, tablet_charts};
 use crate::models::{AndersonDarling, TabletSurface, tablets_to_measure};
 use plotly::Plot;
@@ -19,7 +19,7 @@ pub(super) fn sections(number: usize, shape: &ShapeCoating) -> String {
 fn where_it_lies(number: usize, shape: &ShapeCoating, thickness: &ThicknessMap) -> String {
     let without = thickness.others.get(ThicknessMap::WITHOUT_SHADOWS);
     let scale = map::Scale::over([Some(&thickness.average_um), without].into_iter().flatten());
-    let average = map::thickness_map(thickness, &thickness.average_um, scale, map::Size::Large);
+    let average = map::panel_map(thickness, &thickness.average_um, "µm", scale, map::Size::Large);
     let mut content = format!(
         "<div class=\"pair\"><div>{}</div><div>{}</div></div>\n",
         chart(&format!("map-{number}"), &average),
@@ -27,7 +27,7 @@ fn where_it_lies(number: usize, shape: &ShapeCoating, thickness: &ThicknessMap) 
     );
     content += &profiles(number, thickness, without).unwrap_or_default();
     if let Some(without) = without {
-        let plot = map::thickness_map(thickness, without, scale, map::Size::Small);
+        let plot = map::panel_map(thickness, without, "µm", scale, map::Size::Small);
         let _ = writeln!(
             content,
             "<div class=\"pair\"><div>{}</div><p>What the same tablets would carry if neighbours cast no shadow, on the same scale: \
@@ -89,13 +89,15 @@ fn from_tablet_to_tablet(number: usize, shape: &ShapeCoating, thickness: &Thickn
         chart(&format!("spread-{number}"), &tablet_charts::distribution(&covs)),
         table(&spread(shape, &covs))
     );
-    let singles: Vec<&Vec<f64>> =
-        ThicknessMap::SINGLE.iter().filter_map(|name| thickness.others.get(*name)).collect();
+    let singles: Vec<Vec<f64>> = ThicknessMap::SINGLE
+        .iter()
+        .filter_map(|name| thickness.relative(thickness.others.get(*name)?))
+        .collect();
     if singles.len() == ThicknessMap::SINGLE.len() {
-        let scale = map::Scale::over(singles.iter().copied());
+        let scale = map::Scale::over(singles.iter());
         let captions = ["The most uniform tablet", "The median tablet", "The least uniform tablet"];
-        let tablet = |(k, (caption, h)): (usize, (&str, &&Vec<f64>))| {
-            let plot = map::thickness_map(thickness, h, scale, map::Size::Small);
+        let tablet = |(k, (caption, h)): (usize, (&str, &Vec<f64>))| {
+            let plot = map::panel_map(thickness, h, "× mean", scale, map::Size::Small);
             format!(
                 "<figure>{}<figcaption>{caption}</figcaption></figure>",
                 chart(&format!("single-{number}-{k}"), &plot)
@@ -106,7 +108,8 @@ fn from_tablet_to_tablet(number: usize, shape: &ShapeCoating, thickness: &Thickn
     }
     section(
         &format!("From tablet to tablet: {}", escape(&shape.name)),
-        "Single tablets differ from the average one: CoV of the thickness over each tablet’s own surface, and three of them.",
+        "Single tablets differ from the average one: CoV of the thickness over each tablet’s own surface, and \
+         three of them, each relative to its own mean thickness.",
         &content,
     )
 }
@@ -137,8 +140,8 @@ fn spread(shape: &ShapeCoating, covs: &[f64]) -> Vec<(String, String)> {
         ));
     }
     let measure = |error: f64| tablets_to_measure(sd / mean, error).min(shape.tablets.len() as u64);
-    for error in [0.1, 0.05] {
-        rows.push((format!("Tablets to measure for ± {}", percent(error)), measure(error).to_string()));
+    for (error, name) in [(0.1, "± 10 %"), (0.05, "± 5 %")] {
+        rows.push((format!("Tablets to measure for {name}"), measure(error).to_string()));
     }
     rows
 }

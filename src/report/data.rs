@@ -117,6 +117,14 @@ impl ThicknessMap {
         (self.triangles.iter().map(centroid).collect(), self.triangles.iter().map(normal).collect(), areas)
     }
 
+    /// A map over its own area-weighted mean; `None` for a bare tablet and for lists that do not match.
+    pub fn relative(&self, thickness_um: &[f64]) -> Option<Vec<f64>> {
+        let volume: f64 = thickness_um.iter().zip(&self.areas_mm2).map(|(h, a)| h * a).sum();
+        let mean = volume / self.areas_mm2.iter().sum::<f64>();
+        (mean > 0.0 && thickness_um.len() == self.areas_mm2.len())
+            .then(|| thickness_um.iter().map(|h| h / mean).collect())
+    }
+
     /// Mean thickness of caps and band, µm; `None` for a shape that has only one of both, and for lists that do not match.
     pub fn regions(&self) -> Option<RegionMeans> {
         region_means(&self.average_um, &self.areas_mm2, &self.on_cap).ok().flatten()

@@ -174,7 +174,7 @@ fn quantities(section: &Value) -> Vec<(String, Quantity)> {
 }
 
 /// Endings of keys and the units they stand for; longer endings first.
-const UNITS: [(&str, &str); 13] = [
+const UNITS: [(&str, &str); 14] = [
     ("_m_per_s", "m/s"),
     ("_per_min", "1/min"),
     ("_deg", "°"),
@@ -185,6 +185,7 @@ const UNITS: [(&str, &str); 13] = [
     ("_kg", "kg"),
     ("_Pa", "Pa"),
     ("_J", "J"),
+    ("_m3", "m³"),
     ("_m", "m"),
     ("_s", "s"),
     ("_N", "N"),

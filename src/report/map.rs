@@ -7,7 +7,7 @@ use plotly::layout::{AspectMode, Axis, Camera, Eye, LayoutScene, Margin};
 use plotly::traces::mesh3d::{IntensityMode, Lighting, Mesh3D};
 use plotly::{Layout, Plot};
 
-/// What the ends of the colours stand for, µm.
+/// What the ends of the colours stand for, in the unit of the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     low: f64,
@@ -15,7 +15,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// From the thinnest to the thickest panel of all maps, so that maps side by side can be compared.
+    /// From the lowest to the highest value of all maps, so that maps side by side can be compared.
     pub(super) fn over<'a>(maps: impl Iterator<Item = &'a Vec<f64>>) -> Self {
         let start = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
         maps.flatten().fold(start, |scale, &h| Self { low: scale.low.min(h), high: scale.high.max(h) })
@@ -31,17 +31,17 @@ pub(super) enum Size {
     Small,
 }
 
-/// A tablet with every panel in the colour of its thickness (µm); pointing at a panel shows its numbers.
-pub(super) fn thickness_map(map: &ThicknessMap, thickness_um: &[f64], scale: Scale, size: Size) -> Plot {
+/// A tablet with every panel in the colour of its value, in `unit`; pointing at a panel shows its numbers.
+pub(super) fn panel_map(map: &ThicknessMap, values: &[f64], unit: &str, scale: Scale, size: Size) -> Plot {
     let corner = |k: usize| map.triangles.iter().map(|t| t[k] as usize).collect::<Vec<_>>();
     let coordinate = |k: usize| map.vertices_mm.iter().map(|v| rounded(v[k])).collect::<Vec<_>>();
-    let label = |(panel, um): (usize, &f64)| {
+    let label = |(panel, value): (usize, &f64)| {
         let region = if map.on_cap[panel] { "cap" } else { "band" };
-        format!("{um:.2} µm · {region}, panel {panel}")
+        format!("{value:.2} {unit} · {region}, panel {panel}")
     };
     let (height, distance, bar) = match size {
         Size::Large => (460, 1.0, 14),
-        Size::Small => (250, 1.25, 9),
+        Size::Small => (250, 0.9, 9),
     };
     let mesh = Mesh3D::new(
         coordinate(0),
@@ -51,16 +51,16 @@ pub(super) fn thickness_map(map: &ThicknessMap, thickness_um: &[f64], scale: Sca
         Some(corner(1)),
         Some(corner(2)),
     )
-    .intensity(thickness_um.iter().map(|h| rounded(*h)).collect())
+    .intensity(values.iter().map(|h| rounded(*h)).collect())
     .intensity_mode(IntensityMode::Cell)
     .c_min(scale.low)
     .c_max(scale.high)
     .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-    .color_bar(ColorBar::new().title(Title::with_text("µm")).thickness(bar).outline_width(0))
+    .color_bar(ColorBar::new().title(Title::with_text(unit)).thickness(bar).outline_width(0))
     .flat_shading(true)
     .lighting(Lighting::new().ambient(0.85).diffuse(0.35).specular(0.05).roughness(0.9))
     .hover_info(HoverInfo::Text)
-    .text_array(thickness_um.iter().enumerate().map(label).collect::<Vec<_>>());
+    .text_array(values.iter().enumerate().map(label).collect::<Vec<_>>());
     let axis = || Axis::new().visible(false);
     let scene = LayoutScene::new()
         .aspect_mode(AspectMode::Data)

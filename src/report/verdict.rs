@@ -1,6 +1,7 @@
 //! The report in a few sentences.
 
 use super::ReportData;
+use super::html::escape;
 use super::number::{percent, signed, significant, time};
 use crate::models::{Asymptote, PowerLaw};
 
@@ -10,11 +11,11 @@ const INTER_LAW_FROM: f64 = 10.0;
 /// What a reader should know before looking at anything else.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Verdict {
-    /// The result in one sentence.
+    /// The result in one sentence, as HTML.
     pub(super) headline: String,
-    /// What it means.
+    /// What it means, as HTML.
     pub(super) sentences: Vec<String>,
-    /// What limits confidence in it.
+    /// What limits confidence in it, as plain text.
     pub(super) doubts: Vec<String>,
 }
 
@@ -40,9 +41,10 @@ impl Verdict {
             percent(last.cov_inter)
         );
         let mut sentences = Vec::new();
-        let mut doubts = data.warnings.clone();
+        let mut doubts: Vec<String> = data.warnings.iter().map(|w| capitalized(w)).collect();
         for shape in &data.shapes {
-            let name = if data.shapes.len() > 1 { format!("{}: ", shape.name) } else { String::new() };
+            let name =
+                if data.shapes.len() > 1 { format!("{}: ", escape(&shape.name)) } else { String::new() };
             if let Some(limit) = &shape.limit {
                 let interval = format!("95 % interval {} to {}", percent(limit.low), percent(limit.high));
                 if limit.low > 0.0 {
@@ -112,4 +114,10 @@ impl Verdict {
         }
         Self { headline, sentences, doubts }
     }
+}
+
+/// A warning as a sentence of its own.
+fn capitalized(warning: &str) -> String {
+    let mut letters = warning.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
