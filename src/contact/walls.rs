@@ -159,7 +159,10 @@ impl WallList {
                 }
                 nearest = nearest.min(setting.skin);
                 let key = (i as u16, patch);
-                while memory.next_if(|g| (g.sphere, g.patch) < key).is_some() {}
+                // What touched and is out of reach now must still let go of its spring: see `hand_over`.
+                while let Some(gone) = memory.next_if(|g| (g.sphere, g.patch) < key) {
+                    self.grips.push(Grip { facets: (first, first), ..gone });
+                }
                 let (touching, spring) = match memory.next_if(|g| (g.sphere, g.patch) == key) {
                     Some(grip) => (true, grip.spring),
                     None => (false, Spring::default()),
@@ -167,6 +170,7 @@ impl WallList {
                 self.grips.push(Grip { sphere: key.0, patch, facets: (first, last), touching, spring });
             }
         }
+        self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
         self.allowance = nearest.max(setting.skin);
     }
 
