@@ -4,7 +4,9 @@
 //! `REQUIRE_CHROMIUM=1` where its absence is a fault.
 
 use pancoat::models::{Asymptote, SeriesRow};
-use pancoat::report::{Limit, Quantity, ReportData, RunDir, ShapeCoating, ThicknessMap, page, vtp};
+use pancoat::report::{
+    Exponent, Limit, Quantity, ReportData, RunDir, ShapeCoating, TabletRow, ThicknessMap, page, vtp,
+};
 use std::path::Path;
 use std::process::Command;
 
@@ -37,7 +39,34 @@ fn ellipsoid(rings: u32, around: u32) -> ThicknessMap {
             }
         }
     }
+    let scaled = |by: f64, wave: f64| {
+        let own = |(j, h): (usize, &f64)| 50.0 + by * (h - 50.0) + wave * (j as f64 * 0.05).sin();
+        map.average_um.iter().enumerate().map(own).collect::<Vec<_>>()
+    };
+    let others = [("without_shadows", scaled(1.6, 0.0)), ("most_uniform", scaled(0.9, 3.0))];
+    let single = [
+        ("median", scaled(1.0, 6.0)),
+        ("least_uniform", scaled(1.2, 12.0)),
+        ("sd", vec![6.0; map.areas_mm2.len()]),
+    ];
+    map.others = others.into_iter().chain(single).map(|(name, um)| (name.to_string(), um)).collect();
     map
+}
+
+/// Tablets whose CoV is normally distributed, by quantiles.
+fn tablets() -> Vec<TabletRow> {
+    let row = |k: u32| {
+        let spread: f64 = (0..12).map(|j| f64::from((k * 7919 + j * 104_729) % 1009) / 1009.0 - 0.5).sum();
+        TabletRow {
+            tablet: k as usize,
+            shape: "round".into(),
+            mass_mg: 1300.0,
+            coat_mass_mg: 5.0,
+            mean_thickness_um: 7.65 + spread,
+            cov_intra: Some(0.28 + 0.02 * spread),
+        }
+    };
+    (0..770).map(row).collect()
 }
 
 fn sample() -> ReportData {
@@ -77,6 +106,10 @@ fn sample() -> ReportData {
             name: "round".into(),
             limit: Some(Limit { value: 0.19, low: 0.178, high: 0.201, noise_time_s: Some(9.0) }),
             orientation_only: Some(0.27),
+            inter_exponent: Some(Exponent { value: -0.51, low: -0.54, high: -0.47 }),
+            spread_exponent: Some(Exponent { value: -0.57, low: -0.6, high: -0.52 }),
+            residence_cov: Some(0.142),
+            tablets: tablets(),
             map: Some(ellipsoid(22, 40)),
         }],
         bed: vec![
@@ -143,9 +176,9 @@ fn a_browser_draws_every_chart_without_a_fault() {
         return;
     };
     let head = &dom[..300];
-    assert!(head.contains("data-charts=\"3\""), "{head}");
+    assert!(head.contains("data-charts=\"11\""), "{head}");
     assert!(!head.contains("data-fault"), "{head}");
-    assert!(dom.matches("class=\"js-line\"").count() >= 12, "the curves of two line charts");
+    assert!(dom.matches("class=\"js-line\"").count() >= 18, "the curves of the line charts");
     assert!(dom.contains("<canvas"), "the map");
 }
 
@@ -169,9 +202,9 @@ fn a_run_directory_holds_what_the_page_shows() {
     let dir = folder.path();
     let sample = sample();
     let map = sample.shapes[0].map.as_ref().unwrap();
-    let surface = vtp::CoatedSurface { map, representative_um: &map.average_um };
     let run = RunDir::create(dir, &sample.scene_text).unwrap();
-    std::fs::write(dir.join("coating.vtp"), vtp::write(&[surface])).unwrap();
+    run.write_table("tablets.csv", &sample.shapes[0].tablets).unwrap();
+    std::fs::write(dir.join("coating.vtp"), vtp::write(std::slice::from_ref(map))).unwrap();
     let mut series = run.series().unwrap();
     sample.series.iter().for_each(|row| series.add(row).unwrap());
     std::fs::write(dir.join("panels.csv"), "panel,shape,region\n0,round,cap\n1,round,band\n").unwrap();
@@ -187,6 +220,9 @@ fn a_run_directory_holds_what_the_page_shows() {
             "cov_intra": 0.28,
             "cov_intra_asymptote": { "value": 0.19, "low": 0.178, "high": 0.201, "noise_time_s": 9.0 },
             "cov_intra_orientation_only": 0.27,
+            "cov_inter_exponent": { "value": -0.51, "low": -0.54, "high": -0.47 },
+            "sd_cov_intra_exponent": { "value": -0.57, "low": -0.6, "high": -0.52 },
+            "cov_residence_time": 0.142,
             "cov_identity_residual": 3.1e-15,
             "angle_of_repose_deg": 44.9,
             "mean_speed_m_per_s": 0.1997,

@@ -1,19 +1,27 @@
 //! The coating of a run: counts while it runs, statistics at output times, results at its end.
 
-use crate::models::{AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, ModelError};
-use crate::observers::statistics::CoatingSeries;
-use crate::observers::{Coater, CoaterError, SprayZone, film_volume_per_count};
-use crate::report::vtp::{self, CoatedSurface};
-use crate::report::{self, Estimate, PanelRow, RunDirError, SeriesFile, TabletRow, ThicknessMap};
+use crate::models::{
+    AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, CoatPattern, ModelError, SpreadLaw,
+    TabletSurface, region_means,
+};
+use crate::observers::statistics::{CoatingSeries, SprayPasses};
+use crate::observers::{Coater, CoaterError, Observer, SprayZone, film_volume_per_count};
+use crate::report::{
+    self, Estimate, Exponent, PanelRow, Passes, RunDirError, SeriesFile, TabletRow, ThicknessMap, vtp,
+};
 use crate::scene::{Scene, Spray};
 use crate::shapes::{Panels, Region, TabletShape};
-use crate::stepping::Simulation;
+use crate::stepping::{Frame, Simulation};
 use std::collections::BTreeMap;
 
 /// Shortest block of time for the estimate of the limit, s: longer than a tablet takes round the bed.
 const SHORTEST_BLOCK: f64 = 2.0;
 /// Most blocks; each keeps a count for every panel of every tablet.
 const MOST_BLOCKS: u64 = 10;
+/// A tablet that a shadow hides for so long has not left the spray, s.
+const SHADOW: f64 = 0.1;
+/// CoV_inter follows its power law from here on, s (Freireich et al. 2015, section 8.1).
+const MIXED: f64 = 10.0;
 
 /// What the spray has put on the tablets.
 pub(super) struct Coating {
@@ -30,8 +38,10 @@ pub(super) struct Coating {
 struct CoatedShape {
     shape: TabletShape,
     panels: Panels,
+    on_cap: Vec<bool>,
     bodies: Vec<usize>,
     series: CoatingSeries,
+    passes: SprayPasses,
     /// Counts at the end of the last block, tablet after tablet.
     blocked: Vec<u64>,
     /// What was gained in each block.
@@ -86,7 +96,9 @@ impl Coating {
                 Some(CoatedShape {
                     shape: shape.clone(),
                     blocked: vec![0; bodies.len() * panels.len()],
+                    on_cap: panels.regions.iter().map(|&region| region == Region::Cap).collect(),
                     panels,
+                    passes: SprayPasses::new(&bodies, (SHADOW / interval).round() as u64, scene.seed),
                     bodies,
                     series: CoatingSeries::new(scene.outputs.series_interval),
                     blocks: Vec::new(),
@@ -151,7 +163,9 @@ impl Coating {
             };
             let residual = batch.identities.worst().max(shape.series.worst_identity());
             outcome.identity_residual = outcome.identity_residual.max(residual);
-            let coating = shape.coating(&batch, self.volume_per_count, self.block_time());
+            let pattern = shape.without_shadows();
+            let mut coating = shape.coating(&batch, self.volume_per_count, self.block_time());
+            coating.cov_intra_orientation_only = pattern.as_ref().map(|pattern| pattern.cov);
             if k == 0 {
                 outcome.main = coating;
             }
@@ -171,11 +185,10 @@ impl Coating {
                 });
             }
             outcome.panels.extend(shape.panel_rows(&batch));
-            maps.push(shape.thickness_map(&batch));
+            maps.push(shape.thickness_map(&batch, &map, pattern.as_ref()));
         }
         outcome.tablets.sort_by_key(|row| row.tablet);
-        let surfaces: Vec<_> = maps.iter().map(|map| CoatedSurface { map, representative_um: &[] }).collect();
-        outcome.surfaces = vtp::write(&surfaces);
+        outcome.surfaces = vtp::write(&maps);
         Ok(outcome)
     }
 
@@ -220,7 +233,33 @@ impl CoatedShape {
             }),
             cov_intra_orientation_only: None,
             mean_thickness_um: Some(1e6 * batch.mean_thickness),
+            cov_inter_exponent: self.series.law_of_inter(MIXED, &Bootstrap::default()).ok().map(exponent),
+            sd_cov_intra_exponent: self.series.spread_of_cov(&Bootstrap::default()).ok().map(exponent),
+            orientation_index: region_means(&batch.average, &self.panels.areas, &self.on_cap)
+                .ok()
+                .flatten()
+                .map(|means| means.orientation_index()),
+            passes: self.passes(),
         }
+    }
+
+    fn passes(&self) -> Passes {
+        let Some(figures) = self.passes.figures() else { return Passes::default() };
+        Passes {
+            tablets_in_spray: Some(figures.tablets_in_spray),
+            passes_per_min: Some(figures.passes_per_min),
+            pass_duration_s: Some(figures.pass_duration),
+            cov_residence_time: Some(figures.residence_cov),
+            speed_in_spray_m_per_s: Some(figures.speed),
+            order_to_spray: Some(figures.order.s2()),
+        }
+    }
+
+    /// The limit of the tablets as they were turned, without shadows; `None` before any was hit.
+    fn without_shadows(&self) -> Option<CoatPattern> {
+        let Panels { centroids, normals, areas, .. } = &self.panels;
+        let surface = TabletSurface::new(centroids, normals, areas, &self.on_cap).ok()?;
+        surface.orientation_limit(self.passes.directions()).ok()
     }
 
     fn panel_rows<'a>(&'a self, batch: &'a BatchStatistics) -> impl Iterator<Item = PanelRow> + 'a {
@@ -238,18 +277,51 @@ impl CoatedShape {
                 nz: normal.z,
                 area_mm2: 1e6 * self.panels.areas[k],
                 average_um: 1e6 * batch.average[k],
-                representative_um: None,
+                // Its map is the sum over tablets and times, so at the same mean it is the average tablet's.
+                representative_um: Some(1e6 * batch.average[k]),
             }
         })
     }
 
-    fn thickness_map(&self, batch: &BatchStatistics) -> ThicknessMap {
+    fn thickness_map(
+        &self,
+        batch: &BatchStatistics,
+        map: &CoatMap<'_, u64>,
+        pattern: Option<&CoatPattern>,
+    ) -> ThicknessMap {
+        let um = |thickness: &[f64]| thickness.iter().map(|h| 1e6 * h).collect::<Vec<_>>();
+        let mut others = BTreeMap::from([(ThicknessMap::SD.to_owned(), um(&batch.panel_sd))]);
+        if let Some(pattern) = pattern {
+            let thickness = pattern.relative.iter().map(|h| 1e6 * h * batch.mean_thickness).collect();
+            others.insert(ThicknessMap::WITHOUT_SHADOWS.to_owned(), thickness);
+        }
+        let ranked = batch.ranked();
+        if let [first, .., last] = ranked[..] {
+            for (name, tablet) in ThicknessMap::SINGLE.iter().zip([first, ranked[ranked.len() / 2], last]) {
+                let thickness = (0..map.panels()).map(|panel| 1e6 * map.thickness(tablet, panel)).collect();
+                others.insert((*name).to_owned(), thickness);
+            }
+        }
         ThicknessMap {
             vertices_mm: self.panels.vertices.iter().map(|v| (v * 1e3).into()).collect(),
             triangles: self.panels.triangles.clone(),
             areas_mm2: self.panels.areas.iter().map(|area| 1e6 * area).collect(),
-            on_cap: self.panels.regions.iter().map(|&region| region == Region::Cap).collect(),
-            average_um: batch.average.iter().map(|h| 1e6 * h).collect(),
+            on_cap: self.on_cap.clone(),
+            average_um: um(&batch.average),
+            others,
         }
     }
+}
+
+impl Observer for Coating {
+    fn observe(&mut self, frame: &Frame<'_>) {
+        self.coater.observe(frame);
+        for shape in &mut self.shapes {
+            shape.passes.observe(frame, self.coater.zone(), self.coater.exposed());
+        }
+    }
+}
+
+fn exponent(spread: SpreadLaw) -> Exponent {
+    Exponent { value: spread.law.exponent, low: spread.exponent.low, high: spread.exponent.high }
 }

@@ -83,7 +83,7 @@ impl Session {
         let mut series = self.coating.is_some().then(|| self.directory.series()).transpose()?;
         while self.done < frames {
             let mut observers: Vec<&mut dyn Observer> = Vec::new();
-            observers.extend(self.coating.as_mut().map(|c| &mut c.coater as &mut dyn Observer));
+            observers.extend(self.coating.as_mut().map(|c| c as &mut dyn Observer));
             observers.extend(self.bed.as_mut().map(|b| b as &mut dyn Observer));
             let mut go_on = true;
             let mut note = |progress: &Progress| {

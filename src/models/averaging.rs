@@ -88,6 +88,8 @@ pub struct BatchStatistics {
     pub tablets: Vec<TabletMoments>,
     /// h_j, thickness of each panel of the average tablet, m (Eq 16).
     pub average: Vec<f64>,
+    /// Standard deviation over tablets of the thickness of each panel, m: how far a single tablet's map is from the average's.
+    pub panel_sd: Vec<f64>,
     /// How well the identities hold.
     pub identities: Identities,
 }
@@ -97,6 +99,8 @@ struct Part {
     tablets: Vec<TabletMoments>,
     /// Σ_i c_ij
     columns: Vec<f64>,
+    /// Σ_i c_ij²
+    column_squares: Vec<f64>,
     /// Σ_i Σ_j c_ij² / A_j
     squares: f64,
 }
@@ -117,10 +121,12 @@ impl BatchStatistics {
 
         let mut tablets = Vec::with_capacity(map.tablets());
         let mut columns = vec![0.0; map.panels()];
+        let mut column_squares = vec![0.0; map.panels()];
         let mut squares = 0.0;
         for part in parts {
             tablets.extend(part.tablets);
             columns.iter_mut().zip(part.columns).for_each(|(sum, c)| *sum += c);
+            column_squares.iter_mut().zip(part.column_squares).for_each(|(sum, c)| *sum += c);
             squares += part.squares;
         }
         let kv = map.unit_volume();
@@ -129,6 +135,9 @@ impl BatchStatistics {
             return Err(ModelError::Uncoated);
         }
         let average: Vec<f64> = columns.iter().zip(map.areas()).map(|(c, a)| kv * c / (a * n)).collect();
+        let panel_sd = (0..map.panels())
+            .map(|j| kv / map.areas()[j] * (column_squares[j] / n - (columns[j] / n).powi(2)).max(0.0).sqrt())
+            .collect();
         let (mean_average, variance_average_tablet) = area_moments(&average, map.areas());
         let mean_moments = tablets.iter().map(|t| t.mean).sum::<f64>() / n;
         let variance_moments = tablets.iter().map(|t| t.sd * t.sd).sum::<f64>() / n;
@@ -155,15 +164,30 @@ impl BatchStatistics {
             variance_average_tablet,
             tablets,
             average,
+            panel_sd,
             identities,
         })
     }
 }
 
+impl BatchStatistics {
+    /// The tablets in the order of their CoV_intra,i, most uniform first; those without coating are left out.
+    pub fn ranked(&self) -> Vec<usize> {
+        let mut coated: Vec<(f64, usize)> =
+            self.tablets.iter().enumerate().filter_map(|(i, t)| Some((t.cov()?, i))).collect();
+        coated.sort_by(|a, b| a.0.total_cmp(&b.0));
+        coated.into_iter().map(|(_, tablet)| tablet).collect()
+    }
+}
+
 /// One pass over the rows of a chunk; each row is short enough to stay in the cache between its mean and its deviations.
 fn part<T: Amount>(map: &CoatMap<'_, T>, rows: &[T], area: f64) -> Part {
-    let mut part =
-        Part { tablets: Vec::with_capacity(CHUNK), columns: vec![0.0; map.panels()], squares: 0.0 };
+    let mut part = Part {
+        tablets: Vec::with_capacity(CHUNK),
+        columns: vec![0.0; map.panels()],
+        column_squares: vec![0.0; map.panels()],
+        squares: 0.0,
+    };
     let kv = map.unit_volume();
     for row in rows.chunks_exact(map.panels()) {
         let mut sum = 0.0;
@@ -174,8 +198,9 @@ fn part<T: Amount>(map: &CoatMap<'_, T>, rows: &[T], area: f64) -> Part {
         }
         let mean = sum / area; // counts per m²: μ_i / k_V
         let (mut deviations, mut squares) = (0.0, 0.0);
-        for (&c, a) in row.iter().zip(map.areas()) {
+        for ((&c, a), column_square) in row.iter().zip(map.areas()).zip(&mut part.column_squares) {
             let c = c.value();
+            *column_square += c * c;
             let h = c / a;
             deviations += (h - mean) * (h - mean) * a;
             squares += h * c;
@@ -240,6 +265,8 @@ mod tests {
         assert!((variance.sqrt() / s.mean_thickness / s.total_area - 1.0).abs() < 1e-12);
         let h3 = (0..70).map(|i| map.thickness(i, 3)).sum::<f64>() / 70.0; // Eq 16
         assert!((s.average[3] / h3 - 1.0).abs() < 1e-12);
+        let sd3 = ((0..70).map(|i| (map.thickness(i, 3) - h3).powi(2)).sum::<f64>() / 70.0).sqrt();
+        assert!((s.panel_sd[3] / sd3 - 1.0).abs() < 1e-12);
     }
 
     #[test]
@@ -267,6 +294,7 @@ mod tests {
         let s = BatchStatistics::of(&CoatMap::new(&[1.0, 1.0], &[1_u32, 3, 0, 0], 1.0).unwrap()).unwrap();
         assert_eq!((s.each_tablet, s.sd_cov_intra), (None, None));
         assert!(s.moments > 0.0);
+        assert_eq!(s.ranked(), [0]);
         let none = BatchStatistics::of(&CoatMap::new(&[1.0], &[0_u32; 4], 1.0).unwrap());
         assert_eq!(none, Err(ModelError::Uncoated));
     }

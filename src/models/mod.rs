@@ -12,18 +12,35 @@ mod asymptote;
 mod averaging;
 mod bootstrap;
 mod coat_map;
+mod normality;
+mod order_tensor;
+mod orientation_only;
 mod power_law;
+mod profiles;
+mod rank_correlation;
 mod regions;
+mod representative;
 mod series;
+mod tablet_spread;
+mod tablet_surface;
+pub mod thz;
 mod trial_process;
 
 pub use asymptote::{Asymptote, AsymptoteEstimate};
 pub use averaging::{BatchStatistics, Identities, TabletMoments};
 pub use bootstrap::{Bootstrap, Interval, quantile};
 pub use coat_map::{Amount, CoatMap};
+pub use normality::AndersonDarling;
+pub use order_tensor::OrderTensor;
+pub use orientation_only::CoatPattern;
 pub use power_law::PowerLaw;
+pub use profiles::ProfileBin;
+pub use rank_correlation::Spearman;
 pub use regions::{RegionMeans, region_means};
+pub use representative::RepresentativeTablet;
 pub use series::SeriesRow;
+pub use tablet_spread::{SpreadLaw, tablets_to_measure};
+pub use tablet_surface::TabletSurface;
 pub use trial_process::{TrialExpectation, TrialProcess};
 
 /// Why a model cannot be computed from the data it was given.

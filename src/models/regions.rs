@@ -16,6 +16,16 @@ impl RegionMeans {
     pub fn ratio(&self) -> f64 {
         self.cap / self.band
     }
+
+    /// Orientation index of Kalbag and Wassgren (AIChE Annual Meeting 2008, "Orientation Index of Tablets as a Means of
+    /// Quantifying Intra-Tablet Coating Variation"): exposure of the band to that of the caps, over the ratio of their areas. 1 is
+    /// uniform, below 1 caps are favoured. With exposure measured per area it is the inverse of [`Self::ratio`].
+    ///
+    /// Ketterhagen 2011 (Int. J. Pharm. 409, 137) uses an index of the same name that falls with less variability, by another
+    /// definition; ours of that kind is the order parameter, [`super::OrderTensor::s2`].
+    pub fn orientation_index(&self) -> f64 {
+        self.band / self.cap
+    }
 }
 
 /// Area-weighted means over the panels on a cap and over those on the band; `None` when the shape has only one of both,

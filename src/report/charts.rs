@@ -1,6 +1,7 @@
 //! Line charts of a report.
 
 use super::ReportData;
+use super::number::significant;
 use super::verdict::inter_law;
 use crate::models::{Asymptote, SeriesRow};
 use plotly::common::{DashType, Fill, Font, Line, Mode, Title};
@@ -16,6 +17,7 @@ pub(super) mod ink {
     pub(crate) const AVERAGE: &str = "#3a8f85";
     pub(crate) const TOTAL: &str = "#8a6fb0";
     pub(crate) const GUIDE: &str = "#98a2b3";
+    pub(crate) const BAR: &str = "#c3d3ea";
     pub(crate) const BAND: &str = "rgba(43,95,168,0.13)";
 }
 
@@ -121,9 +123,8 @@ fn rule(
 
 /// `CoV_intra` with a real subscript.
 fn html_name(name: &str) -> String {
-    ["intra", "inter"]
-        .iter()
-        .fold(name.to_string(), |n, s| n.replace(&format!("CoV_{s}"), &format!("CoV<sub>{s}</sub>")))
+    let subscript = |name: String, s: &str| name.replace(&format!("CoV_{s}"), &format!("CoV<sub>{s}</sub>"));
+    ["intra,i", "intra", "inter"].into_iter().fold(name.to_string(), subscript)
 }
 
 fn skip() -> plotly::common::HoverInfo {
@@ -131,13 +132,18 @@ fn skip() -> plotly::common::HoverInfo {
 }
 
 fn log_log(x: &str, y: &str) -> Layout {
+    // 1, 2 and 5 of every decade that a run may show.
+    let ticks: Vec<f64> =
+        (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(decade))).collect();
+    let labels: Vec<String> = ticks.iter().map(|&tick| significant(tick, 1)).collect();
     let axis = |title: &str| {
         Axis::new()
             .title(Title::with_text(title))
             .type_(AxisType::Log)
             .grid_color(ink::GRID)
             .line_color(ink::GUIDE)
-            .exponent_format(plotly::common::ExponentFormat::Power)
+            .tick_values(ticks.clone())
+            .tick_text(labels.clone())
             .zero_line(false)
     };
     Layout::new()

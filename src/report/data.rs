@@ -1,7 +1,10 @@
 //! What a report is made of.
 
+use super::{Exponent, TabletRow};
 use crate::models::{RegionMeans, SeriesRow, region_means};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Everything a report shows, as plain values: gathered from a run directory, or put together by hand.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -44,7 +47,7 @@ pub struct Quantity {
 }
 
 /// The coating of one shape.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShapeCoating {
     /// Name in the scene.
     pub name: String,
@@ -52,6 +55,14 @@ pub struct ShapeCoating {
     pub limit: Option<Limit>,
     /// Limit of the orientation-only model, when computed.
     pub orientation_only: Option<f64>,
+    /// Power of time with which CoV_inter falls, once the batch is mixed.
+    pub inter_exponent: Option<Exponent>,
+    /// Power of time with which the spread of CoV_intra,i between tablets falls.
+    pub spread_exponent: Option<Exponent>,
+    /// CoV of the time that tablets spend in the spray.
+    pub residence_cov: Option<f64>,
+    /// Its tablets.
+    pub tablets: Vec<TabletRow>,
     /// The average tablet.
     pub map: Option<ThicknessMap>,
 }
@@ -69,7 +80,7 @@ pub struct Limit {
     pub noise_time_s: Option<f64>,
 }
 
-/// Thickness on the panels of a tablet.
+/// Thickness on the panels of tablets of one shape.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ThicknessMap {
     /// Vertices in body axes, mm.
@@ -82,9 +93,38 @@ pub struct ThicknessMap {
     pub on_cap: Vec<bool>,
     /// Thickness on each panel of the average tablet, µm.
     pub average_um: Vec<f64>,
+    /// Further maps by name, µm per panel: [`ThicknessMap::WITHOUT_SHADOWS`], [`ThicknessMap::SINGLE`], [`ThicknessMap::SD`].
+    pub others: BTreeMap<String, Vec<f64>>,
 }
 
 impl ThicknessMap {
+    /// The orientation-only model, at the mean of the average tablet.
+    pub const WITHOUT_SHADOWS: &'static str = "without_shadows";
+    /// The tablets with the lowest, the median and the highest CoV_intra,i.
+    pub const SINGLE: [&'static str; 3] = ["most_uniform", "median", "least_uniform"];
+    /// Standard deviation of each panel over tablets.
+    pub const SD: &'static str = "sd";
+
+    /// The surface in SI units: centroids (m), unit normals and areas (m²).
+    pub fn geometry(&self) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>, Vec<f64>) {
+        let corners = |t: &[u32; 3]| t.map(|v| Vector3::from(self.vertices_mm[v as usize]) * 1e-3);
+        let centroid = |t| corners(t).iter().sum::<Vector3<f64>>() / 3.0;
+        let normal = |t| {
+            let [a, b, c] = corners(t);
+            (b - a).cross(&(c - a)).normalize()
+        };
+        let areas = self.areas_mm2.iter().map(|a| a * 1e-6).collect();
+        (self.triangles.iter().map(centroid).collect(), self.triangles.iter().map(normal).collect(), areas)
+    }
+
+    /// A map over its own area-weighted mean; `None` for a bare tablet and for lists that do not match.
+    pub fn relative(&self, thickness_um: &[f64]) -> Option<Vec<f64>> {
+        let volume: f64 = thickness_um.iter().zip(&self.areas_mm2).map(|(h, a)| h * a).sum();
+        let mean = volume / self.areas_mm2.iter().sum::<f64>();
+        (mean > 0.0 && thickness_um.len() == self.areas_mm2.len())
+            .then(|| thickness_um.iter().map(|h| h / mean).collect())
+    }
+
     /// Mean thickness of caps and band, µm; `None` for a shape that has only one of both, and for lists that do not match.
     pub fn regions(&self) -> Option<RegionMeans> {
         region_means(&self.average_um, &self.areas_mm2, &self.on_cap).ok().flatten()

@@ -1,6 +1,6 @@
 //! From the files of a run directory to what a report shows.
 
-use super::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap, vtp};
+use super::{Exponent, Limit, Quantity, ReportData, ShapeCoating, TabletRow, ThicknessMap, vtp};
 use serde::Deserialize;
 use serde_json::Value;
 use std::io::ErrorKind;
@@ -50,7 +50,7 @@ const NUMERICS: [&str; 2] = ["derived", "guards"];
 const SHOWN_ELSEWHERE: &str = "cov_";
 
 impl ReportData {
-    /// Gathers what the run directory `dir` holds: `run.json` always; `series.csv`, `coating.vtp` with `panels.csv`,
+    /// Gathers what the run directory `dir` holds: `run.json` always; `series.csv`, `coating.vtp` with `panels.csv` and `tablets.csv`,
     /// `scene.ron` and `bed.png` where the run wrote them.
     ///
     /// # Errors
@@ -103,6 +103,7 @@ fn shapes(dir: &Path, results: &Value) -> Result<Vec<ShapeCoating>, ReportError>
     let mut names: Vec<String> =
         table::<Panel>(&dir.join("panels.csv"))?.into_iter().map(|p| p.shape).collect();
     names.dedup();
+    let tablets: Vec<TabletRow> = table(&dir.join("tablets.csv"))?;
     let coating = |(number, map): (usize, ThicknessMap)| {
         // The record's limit is that of the first shape; a run of several shapes keeps one under each shape's name.
         let name = names.get(number).cloned().unwrap_or_else(|| format!("shape {number}"));
@@ -110,11 +111,19 @@ fn shapes(dir: &Path, results: &Value) -> Result<Vec<ShapeCoating>, ReportError>
         ShapeCoating {
             limit: limit(&own["cov_intra_asymptote"]),
             orientation_only: own["cov_intra_orientation_only"].as_f64(),
+            inter_exponent: exponent(&own["cov_inter_exponent"]),
+            spread_exponent: exponent(&own["sd_cov_intra_exponent"]),
+            residence_cov: own["cov_residence_time"].as_f64(),
+            tablets: tablets.iter().filter(|t| t.shape == name).cloned().collect(),
             map: Some(map),
             name,
         }
     };
     Ok(maps.into_iter().enumerate().map(coating).collect())
+}
+
+fn exponent(value: &Value) -> Option<Exponent> {
+    Exponent::deserialize(value).ok()
 }
 
 fn limit(value: &Value) -> Option<Limit> {
@@ -165,7 +174,7 @@ fn quantities(section: &Value) -> Vec<(String, Quantity)> {
 }
 
 /// Endings of keys and the units they stand for; longer endings first.
-const UNITS: [(&str, &str); 13] = [
+const UNITS: [(&str, &str); 14] = [
     ("_m_per_s", "m/s"),
     ("_per_min", "1/min"),
     ("_deg", "°"),
@@ -176,6 +185,7 @@ const UNITS: [(&str, &str); 13] = [
     ("_kg", "kg"),
     ("_Pa", "Pa"),
     ("_J", "J"),
+    ("_m3", "m³"),
     ("_m", "m"),
     ("_s", "s"),
     ("_N", "N"),

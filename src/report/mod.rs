@@ -5,14 +5,17 @@
 
 mod base64;
 mod charts;
+mod coating;
 mod data;
 mod gather;
+mod html;
 mod map;
 mod number;
 mod page;
 mod record;
 mod run_dir;
 mod tables;
+mod tablet_charts;
 mod verdict;
 pub mod vtp;
 
@@ -20,8 +23,8 @@ pub use data::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap};
 pub use gather::ReportError;
 pub use page::page;
 pub use record::{
-    Bed, Coating, Derived, Estimate, Guards, Machine, Performance, RECORD_FORMAT, Results, RunRecord,
-    SprayAim, Status,
+    Bed, Coating, Derived, Estimate, Exponent, Guards, Machine, Passes, Performance, RECORD_FORMAT, Results,
+    RunRecord, SprayAim, Status,
 };
 pub use run_dir::{RunDir, RunDirError, SeriesFile};
 pub use tables::{PanelRow, TabletRow};

@@ -1,9 +1,12 @@
 //! Numbers as a person writes them.
 
-/// A value with `digits` significant digits, without trailing exponents for everyday sizes.
+/// A value with `digits` significant digits, without powers of ten for everyday sizes; whole numbers as they are.
 pub(super) fn significant(value: f64, digits: u8) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { "–".into() };
+    }
+    if value.fract() == 0.0 && value.abs() < 1e6 {
+        return value.to_string();
     }
     let exponent = value.abs().log10().floor() as i32;
     if !(-4..6).contains(&exponent) {
@@ -13,6 +16,11 @@ pub(super) fn significant(value: f64, digits: u8) -> String {
     }
     let decimals = (i32::from(digits) - 1 - exponent).max(0) as usize;
     format!("{value:.decimals$}")
+}
+
+/// A value with two decimals and a true minus sign.
+pub(super) fn signed(value: f64) -> String {
+    format!("{value:.2}").replace('-', "−")
 }
 
 /// A share as percent with three significant digits.
@@ -51,10 +59,8 @@ mod tests {
         assert_eq!(significant(4.5e-14, 3), "4.50 · 10⁻¹⁴");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(f64::NAN, 3), "–");
+        assert_eq!(signed(-0.567), "−0.57");
         assert_eq!(percent(0.2971), "29.7 %");
-        assert_eq!(
-            (time(60.0), time(600.0), time(7200.0)),
-            ("60.0 s".into(), "10.0 min".into(), "2.00 h".into())
-        );
+        assert_eq!((time(60.0), time(600.0), time(7200.0)), ("60 s".into(), "10 min".into(), "2 h".into()));
     }
 }

@@ -1,8 +1,9 @@
 //! The report page: one HTML file that works without a network.
 
+use super::html::{chart, concat, escape, section, table};
 use super::number::{significant, time};
 use super::verdict::Verdict;
-use super::{Quantity, ReportData, ShapeCoating, base64, charts, map};
+use super::{Quantity, ReportData, base64, charts, coating};
 use plotly::Plot;
 use std::fmt::Write;
 
@@ -23,7 +24,7 @@ pub fn page(data: &ReportData) -> String {
         );
     }
     for (number, shape) in data.shapes.iter().enumerate() {
-        body += &coating(number, shape);
+        body += &coating::sections(number, shape);
     }
     body += &bed(data);
     if !data.series.is_empty() {
@@ -64,18 +65,6 @@ fn plotly_script() -> String {
     sources
 }
 
-fn section(title: &str, lead: &str, content: &str) -> String {
-    format!("<section>\n<h2>{title}</h2>\n<p>{lead}</p>\n{content}</section>\n")
-}
-
-fn chart(id: &str, plot: &Plot) -> String {
-    // Inside a script element only "<" could end the text early.
-    let json = plot.to_json().replace('<', "\\u003c");
-    format!(
-        "<div class=\"chart\" id=\"{id}\"></div>\n<script type=\"application/json\" data-chart=\"{id}\">{json}</script>\n"
-    )
-}
-
 fn verdict(data: &ReportData) -> String {
     let Verdict { headline, sentences, doubts } = Verdict::of(data);
     let items = concat(&sentences, |s| format!("<li>{s}</li>"));
@@ -103,33 +92,6 @@ fn cards(data: &ReportData) -> String {
         format!("<div class=\"card\"><b>{value}</b><span>{name}</span></div>")
     });
     if cards.is_empty() { cards } else { format!("<div class=\"cards\">{cards}</div>\n") }
-}
-
-fn coating(number: usize, shape: &ShapeCoating) -> String {
-    let Some(thickness) = &shape.map else { return String::new() };
-    let mut rows = Vec::new();
-    if let Some(means) = thickness.regions() {
-        rows.push(("Mean on the caps".to_string(), format!("{} µm", significant(means.cap, 3))));
-        rows.push(("Mean on the band".to_string(), format!("{} µm", significant(means.band, 3))));
-        rows.push(("Cap over band".to_string(), significant(means.ratio(), 3)));
-    }
-    let mut sorted = thickness.average_um.clone();
-    sorted.sort_by(f64::total_cmp);
-    if let (Some(least), Some(most)) = (sorted.first(), sorted.last()) {
-        rows.push(("Thinnest panel".to_string(), format!("{} µm", significant(*least, 3))));
-        rows.push(("Thickest panel".to_string(), format!("{} µm", significant(*most, 3))));
-        rows.push(("Panels".to_string(), sorted.len().to_string()));
-    }
-    let content = format!(
-        "<div class=\"pair\"><div>{}</div><div>{}</div></div>\n",
-        chart(&format!("map-{number}"), &map::thickness_map(thickness)),
-        table(&rows)
-    );
-    section(
-        &format!("Where the coating lies: {}", escape(&shape.name)),
-        "The average tablet of the batch. Turn it with the mouse; point at a panel for its thickness.",
-        &content,
-    )
 }
 
 fn bed(data: &ReportData) -> String {
@@ -213,19 +175,4 @@ fn quantities(list: &[Quantity]) -> String {
         (escape(&q.name), format!("{}{error} {}", significant(q.value, 4), escape(&q.unit)))
     };
     table(&list.iter().map(row).collect::<Vec<_>>())
-}
-
-fn table(rows: &[(String, String)]) -> String {
-    let rows = concat(rows, |(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>"));
-    format!("<table>{rows}</table>\n")
-}
-
-/// The texts of a list, one after the other.
-fn concat<T>(list: &[T], text: impl Fn(&T) -> String) -> String {
-    list.iter().map(text).collect::<Vec<_>>().concat()
-}
-
-/// Text that may stand in HTML.
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -154,6 +154,52 @@ pub struct Coating {
     /// Mean thickness, µm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_thickness_um: Option<f64>,
+    /// Power of time with which CoV_inter falls after 10 s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cov_inter_exponent: Option<Exponent>,
+    /// Power of time with which the standard deviation of CoV_intra,i over tablets falls, once all are coated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sd_cov_intra_exponent: Option<Exponent>,
+    /// Band over cap, each per area: 1 is even, below 1 caps are favoured (Kalbag and Wassgren 2008).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation_index: Option<f64>,
+    /// How tablets meet the spray.
+    #[serde(flatten)]
+    pub passes: Passes,
+}
+
+/// A fitted power of time with its 95 % interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Exponent {
+    /// The value.
+    pub value: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+/// How tablets of a shape meet the spray.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Passes {
+    /// Tablets in the spray at a time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tablets_in_spray: Option<f64>,
+    /// Passes of a tablet through the spray per minute.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passes_per_min: Option<f64>,
+    /// Mean duration of a pass, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pass_duration_s: Option<f64>,
+    /// CoV over tablets of the time in the spray.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cov_residence_time: Option<f64>,
+    /// Mean speed in the spray, m/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_in_spray_m_per_s: Option<f64>,
+    /// Order of the tablets' axes to the spray: 1 for caps always up, 0 for random, −1/2 for always on edge.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order_to_spray: Option<f64>,
 }
 
 /// The limit of CoV_intra with its 95 % interval.

@@ -1,7 +1,8 @@
 //! The report in a few sentences.
 
 use super::ReportData;
-use super::number::{percent, significant, time};
+use super::html::escape;
+use super::number::{percent, signed, significant, time};
 use crate::models::{Asymptote, PowerLaw};
 
 /// CoV_inter follows a power law after this coated time, s (Freireich et al. 2015, section 8.1).
@@ -10,11 +11,11 @@ const INTER_LAW_FROM: f64 = 10.0;
 /// What a reader should know before looking at anything else.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Verdict {
-    /// The result in one sentence.
+    /// The result in one sentence, as HTML.
     pub(super) headline: String,
-    /// What it means.
+    /// What it means, as HTML.
     pub(super) sentences: Vec<String>,
-    /// What limits confidence in it.
+    /// What limits confidence in it, as plain text.
     pub(super) doubts: Vec<String>,
 }
 
@@ -40,9 +41,10 @@ impl Verdict {
             percent(last.cov_inter)
         );
         let mut sentences = Vec::new();
-        let mut doubts = data.warnings.clone();
+        let mut doubts: Vec<String> = data.warnings.iter().map(|w| capitalized(w)).collect();
         for shape in &data.shapes {
-            let name = if data.shapes.len() > 1 { format!("{}: ", shape.name) } else { String::new() };
+            let name =
+                if data.shapes.len() > 1 { format!("{}: ", escape(&shape.name)) } else { String::new() };
             if let Some(limit) = &shape.limit {
                 let interval = format!("95 % interval {} to {}", percent(limit.low), percent(limit.high));
                 if limit.low > 0.0 {
@@ -72,6 +74,12 @@ impl Verdict {
                         .push(format!("{name}The interval of the limit is wider than a fifth of its value."));
                 }
             }
+            if let Some(without) = shape.orientation_only {
+                sentences.push(format!(
+                    "{name}Without the shadows of neighbours that limit would be {}.",
+                    percent(without)
+                ));
+            }
             if let Some(means) = shape.map.as_ref().and_then(super::ThicknessMap::regions) {
                 sentences.push(format!(
                     "{name}Caps carry {} times the thickness of the band.",
@@ -79,20 +87,26 @@ impl Verdict {
                 ));
             }
         }
-        match inter_law(data) {
-            Some(law) => {
+        let fitted = data.shapes.iter().find_map(|shape| shape.inter_exponent);
+        let law =
+            fitted.map(|e| (e.value, format!("{} to {}", signed(e.low), signed(e.high)))).or_else(|| {
+                inter_law(data).map(|law| (law.exponent, format!("± {}", significant(law.exponent_error, 1))))
+            });
+        match law {
+            Some((power, error)) => {
                 sentences.push(format!(
-                    "The variation between tablets falls as time to the power {:.2} ± {} (−0.50 for well-mixed tablets).",
-                    law.exponent,
-                    significant(law.exponent_error, 1)
+                    "The variation between tablets falls as time to the power {} ({error}; −0.50 for well-mixed tablets).",
+                    signed(power)
                 ));
-                if (law.exponent + 0.5).abs() > 0.05 {
-                    doubts.push("The variation between tablets does not fall as the root of time: they are not yet mixed.".into());
+                if fitted.is_some_and(|e| e.low > -0.5 || e.high < -0.5) {
+                    doubts.push("The variation between tablets does not fall as the root of time: they do not mix well.".into());
                 }
             }
-            None => doubts.push(
-                "The run is too short to check how the variation between tablets falls with time.".into(),
-            ),
+            None => {
+                doubts.push(
+                    "The run is too short to check how the variation between tablets falls with time.".into(),
+                );
+            }
         }
         if data.identity_residual.is_some_and(|r| r > 1e-9) {
             doubts
@@ -100,4 +114,10 @@ impl Verdict {
         }
         Self { headline, sentences, doubts }
     }
+}
+
+/// A warning as a sentence of its own.
+fn capitalized(warning: &str) -> String {
+    let mut letters = warning.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

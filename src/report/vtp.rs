@@ -1,8 +1,8 @@
 //! `coating.vtp`: the coated surface for ParaView, and for the map of a report made later.
 //!
 //! VTK XML PolyData in ASCII, one piece per shape, points in mm. Cell arrays, one value per panel in the order of
-//! `panels.csv`: `average_um`, `representative_um`, `area_mm2`, `cap` (1 on a cap, 0 on the band). Source of the format:
-//! VTK File Formats, "PolyData", <https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>.
+//! `panels.csv`: `average_um`, `area_mm2`, `cap` (1 on a cap, 0 on the band), and a `NAME_um` for each of the map's others.
+//! Source of the format: VTK File Formats, "PolyData", <https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>.
 
 use super::ThicknessMap;
 use std::fmt::Write;
@@ -17,33 +17,21 @@ pub struct VtpError {
     pub fault: String,
 }
 
-/// One piece of the file, ready to be written.
-#[derive(Debug, Clone, Copy)]
-pub struct CoatedSurface<'a> {
-    /// Surface and thickness of the average tablet.
-    pub map: &'a ThicknessMap,
-    /// Thickness of the representative tablet, µm per panel; empty when not computed.
-    pub representative_um: &'a [f64],
-}
-
 /// The text of a VTP file.
-pub fn write(surfaces: &[CoatedSurface<'_>]) -> String {
+pub fn write(maps: &[ThicknessMap]) -> String {
     let mut pieces = String::new();
-    for surface in surfaces {
-        let map = surface.map;
+    for map in maps {
         let cells = map.triangles.len();
         let points = list(map.vertices_mm.iter().flatten());
         let corners = list(map.triangles.iter().flatten());
         let offsets = list((1..=cells).map(|k| 3 * k));
         let caps = list(map.on_cap.iter().map(|&cap| u8::from(cap)));
-        let representative = match surface.representative_um {
-            [] => String::new(),
-            thickness => array("Float64", "representative_um", &list(thickness)),
-        };
-        let arrays = array("Float64", "average_um", &list(&map.average_um))
-            + &representative
+        let mut arrays = array("Float64", "average_um", &list(&map.average_um))
             + &array("Float64", "area_mm2", &list(&map.areas_mm2))
             + &array("UInt8", "cap", &caps);
+        for (name, thickness) in &map.others {
+            arrays += &array("Float64", &format!("{name}_um"), &list(thickness));
+        }
         let _ = write!(
             pieces,
             "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{cells}\">\n\
@@ -78,6 +66,10 @@ fn read_piece(piece: usize, text: &str) -> Result<ThicknessMap, VtpError> {
         let parse = |n: &str| n.parse().map_err(|_| fault(format!("\"{n}\" in array {name} is no number")));
         numbers.split_whitespace().map(parse).collect()
     };
+    // `Name="x_um"` for every thickness but the average.
+    let names = text.split("Name=\"").filter_map(|t| t.split_once('"')?.0.strip_suffix("_um"));
+    let others =
+        names.filter(|name| *name != "average").map(|name| Ok((name.into(), array(&format!("{name}_um"))?)));
     let map = ThicknessMap {
         vertices_mm: array("points")?.as_chunks().0.to_vec(),
         triangles: array("connectivity")?
@@ -89,14 +81,14 @@ fn read_piece(piece: usize, text: &str) -> Result<ThicknessMap, VtpError> {
         areas_mm2: array("area_mm2")?,
         on_cap: array("cap")?.into_iter().map(|cap| cap != 0.0).collect(),
         average_um: array("average_um")?,
+        others: others.collect::<Result<_, _>>()?,
     };
     let cells = map.triangles.len();
-    for (name, found) in
-        [("area_mm2", map.areas_mm2.len()), ("cap", map.on_cap.len()), ("average_um", map.average_um.len())]
-    {
-        if found != cells {
-            return Err(fault(format!("array {name} has {found} values for {cells} panels")));
-        }
+    let lists =
+        [("area_mm2", map.areas_mm2.len()), ("cap", map.on_cap.len()), ("average_um", map.average_um.len())];
+    let others = map.others.iter().map(|(name, values)| (name.as_str(), values.len()));
+    if let Some((name, found)) = lists.into_iter().chain(others).find(|(_, found)| *found != cells) {
+        return Err(fault(format!("array {name} has {found} values for {cells} panels")));
     }
     match map.triangles.iter().flatten().find(|&&corner| corner as usize >= map.vertices_mm.len()) {
         Some(corner) => Err(fault(format!("a panel names point {corner} of {}", map.vertices_mm.len()))),
@@ -115,6 +107,7 @@ fn list<N: std::fmt::Display>(numbers: impl IntoIterator<Item = N>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeMap;
 
     fn tetrahedron() -> ThicknessMap {
         ThicknessMap {
@@ -123,20 +116,20 @@ mod tests {
             areas_mm2: vec![0.75, 0.5, 0.5, 1.0 / 3.0],
             on_cap: vec![true, false, false, true],
             average_um: vec![1.0, 2.5, 0.1, 62.0],
+            others: [("most_uniform".to_string(), vec![0.5; 4])].into(),
         }
     }
 
     #[test]
     fn what_is_written_is_read_back_exactly() {
         let map = tetrahedron();
-        let surface = CoatedSurface { map: &map, representative_um: &[1.0; 4] };
-        assert_eq!(read(&write(&[surface, surface])), Ok(vec![map.clone(), map.clone()]));
+        let maps = vec![map.clone(), ThicknessMap { others: BTreeMap::new(), ..map }];
+        assert_eq!(read(&write(&maps)), Ok(maps));
     }
 
     #[test]
     fn a_broken_file_says_what_is_wrong() {
-        let map = tetrahedron();
-        let text = write(&[CoatedSurface { map: &map, representative_um: &[1.0; 4] }]);
+        let text = write(&[tetrahedron()]);
         let fault = |text: &str| read(text).unwrap_err().to_string();
         assert!(fault(&text.replace("area_mm2", "other")).contains("no array area_mm2"));
         assert!(fault(&text.replace(">0.75 ", ">x ")).contains("\"x\" in array area_mm2 is no number"));

@@ -6,10 +6,12 @@
 
 mod bed;
 mod figure;
+mod passes;
 mod series;
 mod surface;
 
 pub use bed::{BedFigures, BedStatistics, BodyInertia};
 pub use figure::Figure;
-pub use series::CoatingSeries;
+pub use passes::{PassFigures, SprayPasses};
+pub use series::{CoatingSeries, TabletRow};
 pub use surface::{Surface, SurfaceSample};

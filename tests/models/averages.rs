@@ -1,4 +1,4 @@
-//! Coating statistics against cases with exact answers.
+//! Batch averages and laws in time.
 
 use pancoat::models::{Asymptote, AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, PowerLaw};
 use pancoat::models::{SeriesRow, TrialProcess};
