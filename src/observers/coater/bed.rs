@@ -3,12 +3,14 @@
 use super::CoaterError;
 use super::drum::DrumMesh;
 use super::film::PanelIds;
-use super::raster::{IdRaster, PixelBox, ScreenVertex, Sides};
+use super::raster::{Bounds, IdRaster};
+use super::triangle::{LANES, ScreenVertex, Sides};
 use super::view::{Placement, View};
 use crate::shapes::{Panels, SurfaceMesh, TabletShape};
 use crate::stepping::{BodyState, Frame};
 use nalgebra::Vector3;
 use std::borrow::Borrow;
+use wide::f32x4;
 
 /// Everything a view can see, the same in every frame but for the poses.
 #[derive(Debug, Clone)]
@@ -30,7 +32,8 @@ pub(in crate::observers) struct Canvas {
 /// The panels of a shape, ready for drawing.
 #[derive(Debug, Clone)]
 struct Solid {
-    vertices: Vec<[f32; 3]>,
+    /// Body coordinates of the vertices, some at a time; the last ones repeat a vertex.
+    vertices: Vec<[f32x4; 3]>,
     triangles: Vec<[u32; 3]>,
     /// Middle of the box about the vertices, m.
     middle: [f32; 3],
@@ -44,7 +47,7 @@ struct Candidate {
     body: usize,
     nearest: f32,
     placement: Placement,
-    area: PixelBox,
+    area: Bounds,
 }
 
 impl Bed {
@@ -94,7 +97,6 @@ impl Bed {
         for candidate in &candidates {
             if !canvas.raster.hides(&candidate.area, candidate.nearest) {
                 self.draw_body(candidate.body, &candidate.placement, canvas);
-                canvas.raster.settle(&candidate.area);
             }
         }
         canvas.candidates = candidates;
@@ -119,15 +121,52 @@ impl Bed {
         Some(Candidate { body, nearest, placement, area })
     }
 
+    /// Draws a body unless it turns out, vertex by vertex, to be hidden after all.
     fn draw_body(&self, body: usize, placement: &Placement, canvas: &mut Canvas) {
         let solid = &self.solids[self.body_shape[body]];
         canvas.vertices.clear();
-        canvas
-            .vertices
-            .extend(solid.vertices.iter().map(|&vertex| ScreenVertex::new(placement.apply(vertex))));
+        let mut bounds = ScreenBounds::EMPTY;
+        for point in &solid.vertices {
+            let seen = placement.apply_lanes(point);
+            bounds.include(seen);
+            canvas.vertices.extend(ScreenVertex::snap(seen));
+        }
+        let Some(area) = bounds.pixels(&canvas.raster) else { return };
+        if canvas.raster.hides(&area, bounds.nearest()) {
+            return;
+        }
         for (id, triangle) in (self.ids.id(body, 0)..).zip(&solid.triangles) {
             canvas.raster.draw(triangle.map(|vertex| canvas.vertices[vertex as usize]), id, Sides::Front);
         }
+        canvas.raster.settle(&area);
+    }
+}
+
+/// The box about what is seen of a body.
+struct ScreenBounds {
+    min: [f32x4; 3],
+    max: [f32x4; 3],
+}
+
+impl ScreenBounds {
+    const EMPTY: Self =
+        Self { min: [f32x4::splat(f32::INFINITY); 3], max: [f32x4::splat(f32::NEG_INFINITY); 3] };
+
+    fn include(&mut self, seen: [f32x4; 3]) {
+        for ((min, max), seen) in self.min.iter_mut().zip(&mut self.max).zip(seen) {
+            *min = min.fast_min(seen);
+            *max = max.fast_max(seen);
+        }
+    }
+
+    fn nearest(&self) -> f32 {
+        self.min[2].to_array().into_iter().fold(f32::INFINITY, f32::min).max(0.0)
+    }
+
+    fn pixels(&self, raster: &IdRaster) -> Option<Bounds> {
+        let [left, top, _] = self.min.map(|v| v.to_array().into_iter().fold(f32::INFINITY, f32::min));
+        let [right, bottom, _] = self.max.map(|v| v.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max));
+        raster.pixels_between([left, top], [right, bottom])
     }
 }
 
@@ -145,7 +184,15 @@ impl Solid {
         let (min, max) = (fold(f64::min), fold(f64::max));
         let single = |v: &Vector3<f64>| v.data.0[0].map(|x| x as f32);
         Self {
-            vertices: panels.vertices.iter().map(single).collect(),
+            vertices: panels
+                .vertices
+                .chunks(LANES)
+                .map(|some| {
+                    std::array::from_fn(|k| {
+                        std::array::from_fn(|lane| some[lane.min(some.len() - 1)][k] as f32).into()
+                    })
+                })
+                .collect(),
             triangles: panels.triangles.clone(),
             middle: single(&((min + max) / 2.0)),
             half: single(&((max - min) / 2.0)),
@@ -197,7 +244,7 @@ mod tests {
             let order: Vec<usize> = (0..bodies.len()).rev().collect();
             draw_all(&bed, &view, &bodies, &order, &mut whole);
             assert!(culled.candidates.len() < bodies.len());
-            assert!(culled.raster.ids() == whole.raster.ids(), "frame {index}");
+            assert!(culled.raster.rows().eq(whole.raster.rows()), "frame {index}");
         }
     }
 
@@ -217,7 +264,7 @@ mod tests {
         bed.draw(&View::new(&zone(), [60, 30], [0.0; 2]), &frame, &mut canvas);
         let seen = |body: usize| {
             let ids = bed.ids.of_body(body);
-            canvas.raster.ids().iter().filter(|&&id| ids.contains(&(id as usize))).count()
+            canvas.raster.rows().flatten().filter(|&&id| ids.contains(&(id as usize))).count()
         };
         assert_eq!((seen(0), seen(1)), (100, 0));
     }

@@ -1,6 +1,7 @@
 //! The drum in the spray: wall, end walls and baffles hide what is behind them and catch what passes the tablets.
 
-use super::raster::{IdRaster, ScreenVertex, Sides};
+use super::raster::IdRaster;
+use super::triangle::{ScreenVertex, Sides};
 use super::view::View;
 use crate::shapes::{Part, SurfaceMesh};
 use nalgebra::{Rotation3, Vector3};

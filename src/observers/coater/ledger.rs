@@ -39,11 +39,16 @@ impl CoatLedger {
     }
 
     /// Adds a frame's picture; replaces `exposed` by the bodies in it, in their order.
-    pub(super) fn add(&mut self, seen: &[u32], ids: &PanelIds, exposed: &mut Vec<Exposure>) {
+    pub(super) fn add<'a>(
+        &mut self,
+        rows: impl Iterator<Item = &'a [u32]>,
+        ids: &PanelIds,
+        exposed: &mut Vec<Exposure>,
+    ) {
         exposed.clear();
         // Neighbouring pixels mostly show the same body: it is looked up when it changes.
         let (mut body, mut numbers, mut run) = (None, 0..0_u32, 0);
-        for &id in seen {
+        for &id in rows.flatten() {
             self.counts[id as usize] += 1;
             if !numbers.contains(&id) {
                 exposed.extend(body.map(|body| Exposure { body, counts: run }));

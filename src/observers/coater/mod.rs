@@ -12,6 +12,7 @@ mod drum;
 mod film;
 mod ledger;
 mod raster;
+mod triangle;
 mod view;
 
 pub(super) use bed::{Bed, Canvas};
@@ -142,7 +143,7 @@ impl Observer for Coater {
     fn observe(&mut self, frame: &Frame<'_>) {
         let view = View::new(&self.zone, self.pixels, view::jitter(frame.index));
         self.bed.draw(&view, frame, &mut self.canvas);
-        self.ledger.add(self.canvas.raster.ids(), self.bed.ids(), &mut self.exposed);
+        self.ledger.add(self.canvas.raster.rows(), self.bed.ids(), &mut self.exposed);
     }
 }
 

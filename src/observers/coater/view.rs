@@ -3,6 +3,7 @@
 use crate::observers::SprayZone;
 use crate::stepping::BodyState;
 use nalgebra::Vector3;
+use wide::f32x4;
 
 /// Parallel projection along a zone's normal, with the zone's rectangle as the screen and the nozzle as near plane.
 ///
@@ -67,6 +68,16 @@ impl Placement {
         std::array::from_fn(|k| {
             let [a, b, c] = self.turn[k];
             a * x + b * y + c * z + self.at[k]
+        })
+    }
+}
+
+impl Placement {
+    /// The same for some points at once.
+    pub(in crate::observers) fn apply_lanes(&self, [x, y, z]: &[f32x4; 3]) -> [f32x4; 3] {
+        std::array::from_fn(|k| {
+            let [a, b, c] = self.turn[k].map(f32x4::splat);
+            a * *x + b * *y + c * *z + f32x4::splat(self.at[k])
         })
     }
 }

@@ -81,8 +81,7 @@ impl Scene<'_> {
     }
 
     fn surface_light(&self, x: usize, y: usize, from_axis: f32) -> Rgb {
-        let at = y * self.side + x;
-        let id = self.raster.ids()[at];
+        let (id, _) = self.raster.at(x, y);
         let normal = self.normal(x, y);
         let open = self.openness(x, y);
         match self.ids.body(id) {
@@ -97,26 +96,26 @@ impl Scene<'_> {
 
     /// Unit normal of the surface, from depths next to the point: the flatter side where the surface breaks off.
     fn normal(&self, x: usize, y: usize) -> [f32; 3] {
-        let depths = self.raster.depths();
-        let here = depths[y * self.side + x];
-        let slope = |before: Option<usize>, after: Option<usize>| {
-            let rise = |at: Option<usize>, sign: f32| {
-                at.map_or(f32::INFINITY, |at| (depths[at] - here) * sign * self.pixels_per_metre)
+        let (_, here) = self.raster.at(x, y);
+        let slope = |before: Option<[usize; 2]>, after: Option<[usize; 2]>| {
+            let rise = |at: Option<[usize; 2]>, sign: f32| {
+                at.map_or(f32::INFINITY, |[x, y]| {
+                    (self.raster.at(x, y).1 - here) * sign * self.pixels_per_metre
+                })
             };
             let (a, b) = (rise(before, -1.0), rise(after, 1.0));
             let flatter = if a.abs() < b.abs() { a } else { b };
             if flatter.is_finite() { flatter } else { 0.0 }
         };
-        let at = y * self.side + x;
         let last = self.side - 1;
-        let across = slope((x > 0).then(|| at - 1), (x < last).then(|| at + 1));
-        let down = slope((y > 0).then(|| at - self.side), (y < last).then(|| at + self.side));
+        let across = slope((x > 0).then(|| [x - 1, y]), (x < last).then(|| [x + 1, y]));
+        let down = slope((y > 0).then(|| [x, y - 1]), (y < last).then(|| [x, y + 1]));
         unit([across, down, -1.0])
     }
 
     /// Share of the light from all around that reaches the point past what stands before it.
     fn openness(&self, x: usize, y: usize) -> f32 {
-        let here = self.raster.depths()[y * self.side + x];
+        let (_, here) = self.raster.at(x, y);
         let reach = SHADE_REACH * self.pixels_per_metre;
         let mut shade = 0.0;
         for k in 0..SHADE_SAMPLES {
@@ -126,7 +125,7 @@ impl Scene<'_> {
             let seen = |v: usize, step: f32| {
                 (v as f32 + step * along * reach).clamp(0.0, self.side as f32 - 1.0) as usize
             };
-            let before = here - self.raster.depths()[seen(y, sin) * self.side + seen(x, cos)];
+            let before = here - self.raster.at(seen(x, cos), seen(y, sin)).1;
             if before.is_finite() {
                 let steep = (before / (along * SHADE_REACH)).clamp(0.0, 1.5) / 1.5;
                 shade += steep * smooth(2.0 - before / (8.0 * SHADE_REACH));
