@@ -1,5 +1,4 @@
 //! What a frame of the coater costs: 770 round tablets of 1680 panels in the paper's zone.
-#![expect(missing_docs, reason = "a bench has no interface")]
 
 #[path = "../tests/support/beds.rs"]
 mod beds;
@@ -9,7 +8,7 @@ mod solids;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use nalgebra::Vector3;
 use pancoat::observers::{Coater, SprayZone};
-use pancoat::scene::{Aim, Deposit, Spray};
+use pancoat::scene::{Aim, Deposit, Pattern, Spray};
 use pancoat::stepping::{Frame, Observer};
 use std::hint::black_box;
 
@@ -26,6 +25,7 @@ fn raster(criterion: &mut Criterion) {
             aim: Aim::Bed,
             pixels,
             deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+            pattern: Pattern::default(),
         };
         let zone = SprayZone::facing(Vector3::zeros(), Vector3::y(), &spray);
         let mut coater =

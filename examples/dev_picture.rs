@@ -39,12 +39,8 @@ fn main() {
             }
         })
         .collect();
-    let mut drum = SurfaceMesh { vertices: vec![], triangles: vec![], parts: vec![] };
-    stl(&format!("{dir}drum.stl"), |_| Part::Wall, &mut drum);
-    stl(&format!("{dir}end0.stl"), |_| Part::End(0), &mut drum);
-    stl(&format!("{dir}end1.stl"), |_| Part::End(1), &mut drum);
-    stl(&format!("{dir}baffles.stl"), |k| Part::Baffle((k / 6) as u8), &mut drum);
-    // end plates of the peers are squares: keep as they are
+    let pan = default_pan();
+    let drum = drum_mesh(&pan);
     let spray = Spray {
         spanwise: 0.0762,
         streamwise: 0.0381,
@@ -52,6 +48,7 @@ fn main() {
         aim: Aim::Bed,
         pixels: [512, 256],
         deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+        pattern: Pattern::default(),
     };
     let pos: Vec<_> = bodies.iter().map(|b| b.position).collect();
     let surface = BedSurface::fit(&pos, 0.0063).unwrap();

@@ -6,32 +6,45 @@ mod solids;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pancoat::observers::{Coater, Observer, PanelIds, SprayZone, film_thickness};
-use pancoat::scene::{Aim, Deposit, Spray};
+use pancoat::scene::{Aim, Cycle, Deposit, Flux, Outline, Pattern, Rays, Spray, Tilt};
 use pancoat::shapes::{Part, SurfaceMesh, TabletShape};
 use pancoat::stepping::{BodyState, Frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use solids::{icosphere, round_tablet};
+use solids::{block, icosphere, round_tablet};
 
 const EXTENT: [f64; 2] = [0.08, 0.04];
 
-/// Sprays downwards on the origin from 50 mm above; columns run along z, rows along −x.
-fn coater(
-    shapes: &[TabletShape],
-    body_shape: &[usize],
-    pixels: [u32; 2],
-    drum: Option<&SurfaceMesh>,
-) -> Coater {
-    let spray = Spray {
+fn spray_gun(pixels: [u32; 2], pattern: Pattern) -> Spray {
+    Spray {
         spanwise: EXTENT[0],
         streamwise: EXTENT[1],
         distance: 0.05,
         aim: Aim::Bed,
         pixels,
         deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
-    };
-    let zone = SprayZone::facing(Vector3::zeros(), Vector3::y(), &spray);
-    Coater::new(shapes, body_shape, &spray, zone, drum).unwrap()
+        pattern,
+    }
+}
+
+/// Sprays downwards on the origin from 50 mm above; columns run along z, rows along −x.
+fn patterned(
+    shapes: &[TabletShape],
+    body_shape: &[usize],
+    spray: &Spray,
+    drum: Option<&SurfaceMesh>,
+) -> Coater {
+    let zone = SprayZone::facing(Vector3::zeros(), Vector3::y(), spray);
+    Coater::new(shapes, body_shape, spray, zone, drum).unwrap()
+}
+
+fn coater(
+    shapes: &[TabletShape],
+    body_shape: &[usize],
+    pixels: [u32; 2],
+    drum: Option<&SurfaceMesh>,
+) -> Coater {
+    patterned(shapes, body_shape, &spray_gun(pixels, Pattern::default()), drum)
 }
 
 fn body(x: f64, y: f64, z: f64, orientation: UnitQuaternion<f64>) -> BodyState {
@@ -163,16 +176,9 @@ fn moving_everything_by_whole_pixels_changes_nothing() {
     spray(&mut still, 0..8, &bodies, 0.0);
     let shift = Vector3::new(-17.0 * EXTENT[1] / 128.0, 0.001, 231.0 * EXTENT[0] / 256.0);
     let moved: Vec<_> = bodies.iter().map(|b| BodyState { position: b.position + shift, ..*b }).collect();
-    let zone = SprayZone { center: still.zone().center + shift, ..*still.zone() };
-    let spray_gun = Spray {
-        spanwise: EXTENT[0],
-        streamwise: EXTENT[1],
-        distance: 0.05,
-        aim: Aim::Bed,
-        pixels,
-        deposit: Deposit { rate: 1.0, solids: 1.0, film_density: 1.0 },
-    };
-    let mut shifted = Coater::new(&shapes, &[0; 60], &spray_gun, zone, None).unwrap();
+    let zone = SprayZone { center: still.zones()[0].center + shift, ..still.zones()[0] };
+    let mut shifted =
+        Coater::new(&shapes, &[0; 60], &spray_gun(pixels, Pattern::default()), zone, None).unwrap();
     spray(&mut shifted, 0..8, &moved, 0.0);
     let moved_pixels: u64 = (0..60)
         .flat_map(|k| still.counts(k).iter().zip(shifted.counts(k)))
@@ -295,4 +301,127 @@ fn ten_thousand_tablets_have_their_own_numbers() {
         assert_eq!(ids.id(body, id as usize % 1856), id);
     }
     assert_eq!(ids.body(18_560_000), None);
+}
+
+/// Counts on the panels of a block whose normals point along `direction`, as an area, m².
+fn seen_area(coater: &Coater, block: &TabletShape, frames: u64, direction: Vector3<f64>) -> f64 {
+    let normals = &block.panels.as_ref().unwrap().normals;
+    let counts =
+        coater.counts(0).iter().zip(normals).filter(|(_, n)| n.dot(&direction) > 0.99).map(|(c, _)| *c);
+    counts.sum::<u64>() as f64 * coater.pixel_area() / frames as f64
+}
+
+/// A tilted spray sees a face by the cosine of its angle, and the side of a block that it leans to by the sine.
+#[test]
+fn a_tilted_spray_sees_the_sides() {
+    let shapes = [block([0.01; 3])];
+    let angle = 30.0_f64.to_radians();
+    let tilt = |spanwise: f64, streamwise: f64| {
+        let pattern = Pattern { tilt: Tilt { spanwise, streamwise }, ..Pattern::default() };
+        let mut coater = patterned(&shapes, &[0], &spray_gun([512, 256], pattern), None);
+        spray(&mut coater, 0..32, &[body(0.0, 0.0, 0.0, UnitQuaternion::identity())], 0.0);
+        coater
+    };
+    for (coater, side) in [(tilt(angle, 0.0), Vector3::z()), (tilt(0.0, angle), -Vector3::x())] {
+        let [top, side] = [Vector3::y(), side * coater.zones()[0].spanwise.z.signum()]
+            .map(|direction| seen_area(&coater, &shapes[0], 32, direction));
+        assert!((top / (1e-4 * angle.cos()) - 1.0).abs() < 2e-3, "{top}");
+        assert!((side / (1e-4 * angle.sin()) - 1.0).abs() < 2e-3, "{side}");
+    }
+}
+
+/// A diverging spray sees the square on top of a block, a fifth of the way up to the nozzle, 1/0.8² times as large, and
+/// none of its sides when it stands on the axis. Off the axis the inner side is seen.
+#[test]
+fn a_diverging_spray_sees_the_near_larger() {
+    let shapes = [block([0.01, 0.02, 0.01])];
+    let pattern = Pattern { rays: Rays::Diverging, ..Pattern::default() };
+    let run = |z: f64| {
+        let mut coater = patterned(&shapes, &[0], &spray_gun([512, 256], pattern.clone()), None);
+        spray(&mut coater, 0..32, &[body(0.0, 0.0, z, UnitQuaternion::identity())], 0.0);
+        let faces = [Vector3::y(), Vector3::z(), -Vector3::z()];
+        faces.map(|direction| seen_area(&coater, &shapes[0], 32, direction))
+    };
+    let [top, outer, inner] = run(0.0);
+    assert!(
+        (top / (1e-4 / 0.64) - 1.0).abs() < 2e-3 && outer == 0.0 && inner == 0.0,
+        "{top} {outer} {inner}"
+    );
+    let [top, outer, inner] = run(0.02);
+    // The edges 15 mm off the axis at heights 10 and −10 mm are seen at 15/0.8 and 15/1.2 mm, their widths 10/0.8 and
+    // 10/1.2 mm.
+    let trapezoid = (0.015 / 0.8 - 0.015 / 1.2) * (0.01 / 0.8 + 0.01 / 1.2) / 2.0;
+    assert!((top / (1e-4 / 0.64) - 1.0).abs() < 2e-3 && outer == 0.0, "{top} {outer}");
+    assert!((inner / trapezoid - 1.0).abs() < 5e-3, "{inner} instead of {trapezoid}");
+}
+
+#[test]
+fn every_pattern_adds_up_and_pauses_count_nothing() {
+    let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5)];
+    let bodies = heap(60, 9);
+    let patterns = [
+        Pattern { outline: Outline::Ellipse, ..Pattern::default() },
+        Pattern { flux: Flux::Gaussian { sigma: 0.5 }, rays: Rays::Diverging, ..Pattern::default() },
+        Pattern {
+            flux: Flux::Dumbbell { offset: 0.5, sigma: 0.3 },
+            nozzles: vec![-0.02, 0.0, 0.02],
+            ..Pattern::default()
+        },
+        Pattern {
+            flux: Flux::Annular { inner: 0.3 },
+            cycle: Some(Cycle { on: 1.0, off: 1.0 }),
+            ..Pattern::default()
+        },
+    ];
+    for pattern in patterns {
+        let mut coater = patterned(&shapes, &[0; 60], &spray_gun([128, 64], pattern.clone()), None);
+        for (index, time) in [(0, 0.0), (1, 1.5), (2, 2.5)] {
+            coater.observe(&Frame { index, time, bodies: &bodies, drum_angle: 0.0, drum_torque: 0.0 });
+            assert_eq!(coater.exposed().is_empty(), pattern.cycle.is_some() && index == 1);
+        }
+        let sprayed = if pattern.cycle.is_some() { 2 } else { 3 };
+        assert_eq!(coater.ledger().frames(), sprayed);
+        assert_eq!(coater.ledger().total(), sprayed * coater.counts_per_frame());
+        let on_tablets: u64 = (0..60).flat_map(|b| coater.counts(b)).sum();
+        assert!(on_tablets > 0);
+    }
+}
+
+/// Weights do what they say: a block in the middle of a Gaussian spray gets the share of the bell over it.
+#[test]
+fn a_bell_favours_its_middle() {
+    let shapes = [block([0.02, 0.01, 0.04])];
+    let pattern = Pattern { flux: Flux::Gaussian { sigma: 0.5 }, ..Pattern::default() };
+    let mut coater = patterned(&shapes, &[0], &spray_gun([256, 128], pattern), None);
+    spray(&mut coater, 0..4, &[body(0.0, 0.0, 0.0, UnitQuaternion::identity())], 0.0);
+    let share = coater.counts(0).iter().sum::<u64>() as f64 / coater.ledger().total() as f64;
+    // The block covers half of each extent: (erf(½/(σ√2)) / erf(1/(σ√2)))², erf(0.707107) = 0.682689 and
+    // erf(1.414214) = 0.954500.
+    assert!((share - (0.682_689_f64 / 0.954_500).powi(2)).abs() < 2e-3, "{share}");
+}
+
+/// Frames coated side by side give what they give one after the other, whatever the number of threads.
+#[test]
+fn batches_of_frames_give_the_same_counts() {
+    let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5)];
+    let heaps: Vec<_> = (0..7).map(|seed| heap(60, seed)).collect();
+    let frames: Vec<_> = heaps
+        .iter()
+        .zip(0..)
+        .map(|(bodies, index)| Frame { index, time: 0.0, bodies, drum_angle: 0.0, drum_torque: 0.0 })
+        .collect();
+    let mut single = coater(&shapes, &[0; 60], [128, 64], None);
+    let exposed: Vec<_> = frames
+        .iter()
+        .map(|frame| {
+            single.observe(frame);
+            single.exposed().to_vec()
+        })
+        .collect();
+    for threads in [1, 2, 3, 16] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut batch = coater(&shapes, &[0; 60], [128, 64], None);
+        assert_eq!(pool.install(|| batch.observe_all(&frames)), exposed);
+        assert_eq!(batch.ledger(), single.ledger());
+    }
 }

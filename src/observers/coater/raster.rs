@@ -41,8 +41,8 @@ impl IdRaster {
             last,
             stride,
             ids: vec![0; stride * height],
-            depths: vec![-1.0; stride * height],
-            tile_depths: vec![0.0; tiles_across * height.div_ceil(TILE)],
+            depths: vec![f32::NEG_INFINITY; stride * height],
+            tile_depths: vec![f32::INFINITY; tiles_across * height.div_ceil(TILE)],
             tiles_across,
         };
         raster.clear(0);
@@ -99,7 +99,7 @@ impl IdRaster {
                 let down = row * TILE..self.height.min((row + 1) * TILE);
                 self.tile_depths[row * self.tiles_across + column] = down
                     .map(|y| furthest(&self.depths[y * self.stride..][across.clone()]))
-                    .fold(0.0, f32::max);
+                    .fold(f32::NEG_INFINITY, f32::max);
             }
         }
     }
@@ -183,6 +183,6 @@ impl IdRaster {
 /// The largest of some depths.
 fn furthest(depths: &[f32]) -> f32 {
     let (lanes, rest) = depths.as_chunks::<LANES>();
-    let far = lanes.iter().fold(f32x4::ZERO, |far, &depths| far.fast_max(depths.into()));
-    far.to_array().iter().chain(rest).fold(0.0, |far, &depth| far.max(depth))
+    let far = lanes.iter().fold(f32x4::splat(f32::NEG_INFINITY), |far, &depths| far.fast_max(depths.into()));
+    far.to_array().iter().chain(rest).fold(f32::NEG_INFINITY, |far, &depth| far.max(depth))
 }

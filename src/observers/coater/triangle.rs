@@ -44,21 +44,13 @@ pub(in crate::observers) struct Bounds {
 }
 
 impl ScreenVertex {
-    /// Snaps screen coordinates to the grid. What is nearer than the near plane comes to lie on it.
-    pub(in crate::observers) fn new([x, y, depth]: [f32; 3]) -> Self {
-        let [snapped] = Self::snap([f32x4::splat(x), f32x4::splat(y), f32x4::splat(depth)])[..1] else {
-            unreachable!("four vertices are snapped at once")
-        };
-        snapped
-    }
-
-    /// Four vertices at once.
+    /// Snaps the screen coordinates of some vertices to the grid.
     pub(in crate::observers) fn snap([x, y, depth]: [f32x4; 3]) -> [Self; LANES] {
         let grid = |pixels: f32x4| {
             let kept = pixels.fast_max(f32x4::splat(-FAR_OUT)).fast_min(f32x4::splat(FAR_OUT));
             (kept * SUBPIXELS as f32).fast_round_int().to_array()
         };
-        let (x, y, depth) = (grid(x), grid(y), depth.fast_max(f32x4::ZERO).to_array());
+        let (x, y, depth) = (grid(x), grid(y), depth.to_array());
         std::array::from_fn(|lane| Self { x: x[lane], y: y[lane], depth: depth[lane] })
     }
 }
