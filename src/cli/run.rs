@@ -169,7 +169,7 @@ impl Session {
                 drum_angle: simulation.drum_angle(),
                 drum_torque: simulation.drum_torque(),
             };
-            let image = picture.draw(&frame, &outcome.film, Some(coating.coater.zone()));
+            let image = picture.draw(&frame, &outcome.film, Some(&coating.coater.zones()[0]));
             image.write_png(&self.directory.path().join("bed.png")).map_err(Failure::Output)?;
         }
         Ok(())
