@@ -69,7 +69,8 @@ pub struct ContactField {
     damping: DampingMass,
     skin: f64,
     watches: Vec<PairWatch>,
-    /// The lists of `watches`, in the same order; boxed, as they change places at every search.
+    /// The lists of `watches`, in the same order.
+    #[expect(clippy::vec_box, reason = "lists are large and change places at every search")]
     pairs: Vec<Box<BodyPair>>,
     boundaries: Vec<Boundary>,
     walls: Vec<WallList>,

@@ -325,8 +325,7 @@ impl Simulation {
             body.velocity.iter().chain(&body.momentum).for_each(|x| put(*x));
         }
         for (a, b, i, j, stretch) in self.field.springs() {
-            [a, b, i, j].iter().for_each(|k| put(f64::from(*k)));
-            stretch.iter().for_each(|x| put(*x));
+            [a, b, i, j].map(f64::from).into_iter().chain(stretch.iter().copied()).for_each(&mut put);
         }
         hasher.finalize().to_hex().to_string()
     }

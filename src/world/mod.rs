@@ -71,6 +71,9 @@ impl World {
     }
 
     /// Adds a driven surface; its index counts from 0.
+    ///
+    /// # Panics
+    /// When the mesh has no triangle.
     pub fn add_surface(&mut self, mesh: &SurfaceMesh) -> usize {
         let vertices = mesh.vertices.iter().map(|v| Vec3::new(v.x as f32, v.y as f32, v.z as f32)).collect();
         let shape = SharedShape::trimesh(vertices, mesh.triangles.clone()).expect("a mesh has triangles");
@@ -108,17 +111,16 @@ impl World {
     /// Whether some body may have come near another since the last search: it has used up its share of the margin.
     #[inline]
     pub fn must_search(&self, motions: &[Motion]) -> bool {
-        // Written so that a NaN position searches.
-        (0..motions.len()).any(|k| !(self.used(k, &motions[k]) < 1.0))
+        motions.iter().enumerate().any(|(k, motion)| !self.within(k, motion, 1.0))
     }
 
-    /// Share of its margin that a body has used since Rapier learnt its pose, dimensionless.
+    /// Whether a body has used less than `share` of its margin since Rapier learnt its pose; false for a NaN pose.
     #[inline]
-    fn used(&self, body: usize, now: &Motion) -> f64 {
+    fn within(&self, body: usize, now: &Motion, share: f64) -> bool {
         let (then, reach) = (&self.known[body], self.reaches[body]);
         let turned = (3.0 - now.rotation.dot(&then.rotation)).max(0.0).sqrt();
         let moved = (now.position - then.position).norm() + turned * reach;
-        moved / self.margins[body]
+        moved < share * self.margins[body]
     }
 
     /// All pairs of bodies that can touch before [`World::must_search`] says so: smaller index first, sorted.
@@ -130,7 +132,7 @@ impl World {
             self.bodies[*handle].set_position(pose(motion), false);
         }
         let moved: Vec<bool> =
-            motions.iter().enumerate().map(|(k, m)| !(self.used(k, m) < tuning::EARLY)).collect();
+            motions.iter().enumerate().map(|(k, m)| !self.within(k, m, tuning::EARLY)).collect();
         for (k, (body, collider)) in self.tablets.iter().enumerate().filter(|(k, _)| moved[*k]) {
             let (motion, reach) = (&motions[k], self.reaches[k]);
             let speed = motion.velocity.norm() + motion.spin.norm() * reach;
@@ -165,6 +167,9 @@ impl World {
 
     /// Fills `facets` with the facets of a surface whose boxes meet the box from `min` to `max` (surface axes, m), in no
     /// particular order.
+    ///
+    /// # Panics
+    /// When there is no surface of that index.
     pub fn facets_near(&self, surface: usize, min: &Vector3<f64>, max: &Vector3<f64>, facets: &mut Vec<u32>) {
         let mesh = self.surfaces[surface].1.as_trimesh().expect("surfaces are triangle meshes");
         facets.extend(mesh.bvh().intersect_aabb(&Aabb::new(to_f32(min), to_f32(max))));
