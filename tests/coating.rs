@@ -11,7 +11,7 @@ use pancoat::observers::{
     Coater, Observer, Packing, PanelIds, PoseReader, Recorder, SprayZone, StoredFrame, film_thickness,
     read_pose_table,
 };
-use pancoat::scene::{Aim, Cycle, Deposit, Flux, Outline, Pattern, Rays, Spray, Tilt};
+use pancoat::scene::{Aim, Cycle, Deposit, Flux, Footprint, Pattern, Rays, Spray, Tilt};
 use pancoat::shapes::{Part, SurfaceMesh, TabletShape};
 use pancoat::stepping::{BodyState, Frame};
 use rand::{RngExt, SeedableRng};
@@ -401,7 +401,7 @@ fn every_pattern_adds_up_and_pauses_count_nothing() {
     let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5)];
     let bodies = heap(60, 9);
     let patterns = [
-        Pattern { outline: Outline::Ellipse, ..Pattern::default() },
+        Pattern { footprint: Footprint::Ellipse, ..Pattern::default() },
         Pattern { flux: Flux::Gaussian { sigma: 0.5 }, rays: Rays::Diverging, ..Pattern::default() },
         Pattern {
             flux: Flux::Dumbbell { offset: 0.5, sigma: 0.3 },

@@ -181,6 +181,9 @@ pub enum FaultKind {
     /// Moments that no body has.
     #[error("principal moments must be above 0, none above the sum of the other two")]
     Inertia,
+    /// Dimensions that no solid has together.
+    #[error("{0}")]
+    Impossible(String),
     /// A direction of no length.
     #[error("a direction needs a length above 0")]
     NoDirection,

@@ -1,5 +1,6 @@
 //! The validated scene. All numbers are SI; all references between parts are indices into the scene's own lists.
 
+use super::Recipe;
 use super::pattern::Pattern;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::path::PathBuf;
@@ -93,49 +94,6 @@ pub struct Shape {
     pub spheres: usize,
     /// How many panels the surface is cut into, about.
     pub panels: usize,
-}
-
-/// Solids by the dimensions people have. Lengths in m.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Recipe {
-    /// A sphere.
-    Sphere {
-        /// Diameter, m.
-        diameter: f64,
-    },
-    /// Circular band with two equal caps.
-    Round {
-        /// Diameter of the band, m.
-        diameter: f64,
-        /// Height of the band, m.
-        band: f64,
-        /// The cap on each side.
-        cap: Cap,
-    },
-    /// A clump given sphere by sphere (`x y z r` in m, body frame at the centre of mass), with its own inertia.
-    Clump {
-        /// File of `x y z r` rows, as resolved from the scene file's folder.
-        path: PathBuf,
-        /// Principal moments of inertia per unit mass, m².
-        inertia_per_mass: [f64; 3],
-    },
-}
-
-/// The cap of a tablet: z(s) above the band, s = 0 at the axis, 1 at the band.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Cap {
-    /// Part of a sphere.
-    Spherical {
-        /// Height above the band, m.
-        height: f64,
-    },
-    /// z = height (1 − s^exponent): larger exponents are fuller cups.
-    Compound {
-        /// Height above the band, m.
-        height: f64,
-        /// Exponent, dimensionless, above 1.
-        exponent: f64,
-    },
 }
 
 /// A number of equal tablets.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pattern {
     /// Border of the sprayed area.
-    pub outline: Outline,
+    pub footprint: Footprint,
     /// How the flux is spread inside it.
     pub flux: Flux,
     /// Which way the drops fly.
@@ -23,7 +23,7 @@ pub struct Pattern {
 impl Default for Pattern {
     fn default() -> Self {
         Self {
-            outline: Outline::Rectangle,
+            footprint: Footprint::Rectangle,
             flux: Flux::Uniform,
             rays: Rays::Parallel,
             tilt: Tilt { spanwise: 0.0, streamwise: 0.0 },
@@ -35,7 +35,7 @@ impl Default for Pattern {
 
 /// Border of the sprayed area, within the spanwise and streamwise extent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outline {
+pub enum Footprint {
     /// All of it.
     Rectangle,
     /// The ellipse that touches its sides; a circle when they are equal.

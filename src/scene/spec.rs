@@ -57,9 +57,69 @@ pub(super) struct ShapeSpec {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Recipe")]
 pub(super) enum RecipeSpec {
-    Sphere { diameter: Option<Length> },
-    Round { diameter: Option<Length>, band: Option<Length>, cap: Option<CapSpec> },
-    Clump { file: Option<String>, inertia_per_mass: Option<Triple<InertiaPerMass>> },
+    Sphere {
+        diameter: Option<Length>,
+    },
+    Round {
+        diameter: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Oval {
+        length: Option<Length>,
+        width: Option<Length>,
+        fourth_harmonic: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Almond {
+        length: Option<Length>,
+        width: Option<Length>,
+        fourth_harmonic: Option<Length>,
+        third_harmonic: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Triangular {
+        length: Option<Length>,
+        width: Option<Length>,
+        fourth_harmonic: Option<Length>,
+        third_harmonic: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Capsule {
+        length: Option<Length>,
+        width: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Bullet {
+        length: Option<Length>,
+        width: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    HalfMoon {
+        length: Option<Length>,
+        width: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Shield {
+        length: Option<Length>,
+        width: Option<Length>,
+        band: Option<Length>,
+        cap: Option<CapSpec>,
+    },
+    Mesh {
+        file: Option<String>,
+        unit: Option<Length>,
+    },
+    Clump {
+        file: Option<String>,
+        inertia_per_mass: Option<Triple<InertiaPerMass>>,
+    },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
@@ -67,6 +127,7 @@ pub(super) enum RecipeSpec {
 pub(super) enum CapSpec {
     Spherical { height: Option<Length> },
     Compound { height: Option<Length>, exponent: Option<Number> },
+    Bevelled { height: Option<Length>, width: Option<Length> },
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -209,6 +270,12 @@ pub(super) struct SpraySpec {
     pub(super) aim: Option<AimSpec>,
     pub(super) pixels: Option<(Whole, Whole)>,
     pub(super) deposit: Option<DepositSpec>,
+    pub(super) footprint: Option<FootprintSpec>,
+    pub(super) flux: Option<FluxSpec>,
+    pub(super) rays: Option<RaysSpec>,
+    pub(super) tilt: Option<TiltSpec>,
+    pub(super) nozzles: Option<Vec<Length>>,
+    pub(super) cycle: Option<CycleSpec>,
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -224,6 +291,44 @@ pub(super) struct DepositSpec {
     pub(super) rate: Option<MassRate>,
     pub(super) solids: Option<Number>,
     pub(super) film_density: Option<Density>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename = "Footprint")]
+pub(super) enum FootprintSpec {
+    Rectangle,
+    Ellipse,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Flux")]
+pub(super) enum FluxSpec {
+    Uniform,
+    Gaussian { sigma: Option<Number> },
+    Annular { inner: Option<Number> },
+    Dumbbell { offset: Option<Number>, sigma: Option<Number> },
+    Table { file: Option<String> },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename = "Rays")]
+pub(super) enum RaysSpec {
+    Parallel,
+    Diverging,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Tilt")]
+pub(super) struct TiltSpec {
+    pub(super) spanwise: Option<Angle>,
+    pub(super) streamwise: Option<Angle>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Cycle")]
+pub(super) struct CycleSpec {
+    pub(super) on: Option<TimeSpan>,
+    pub(super) off: Option<TimeSpan>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]

@@ -1,4 +1,4 @@
-//! Fits a clump of inscribed spheres to a closed surface.
+//! Fits a clump of spheres to a closed surface.
 //!
 //! Candidates are the medial balls of the surface: the largest spheres inside that touch it at a sample point. From
 //! them the fit picks greedily, then exchanges one pick at a time for a better candidate nearby until nothing improves.
@@ -6,6 +6,7 @@
 //! is a facility-location problem, for which the greedy choice is within 1 − 1/e of the best gain (Nemhauser, Wolsey
 //! and Fisher 1978, Math. Programming 14, 265).
 
+use super::tree::TriangleTree;
 use super::{Clump, Panels, Sphere};
 use nalgebra::Vector3;
 
@@ -15,10 +16,31 @@ const SWEEPS: usize = 40;
 /// How many of the nearest candidates a pick may be exchanged for. More makes the fit slower, not visibly better.
 const NEIGHBOURS: usize = 200;
 
-/// A clump of `count` spheres inside a closed surface. Samples are the panels' centroids, so the surface has to be cut
-/// finer than the spheres are apart. With `mirror` the surface is taken to be symmetric about z = 0 and the clump is
-/// too: both caps then feel the same. Fewer spheres come back only when the surface has fewer distinct medial balls.
-pub(super) fn fit(surface: &Panels, count: usize, mirror: bool) -> Clump {
+/// How many spheres a clump may have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SphereBudget {
+    /// Exactly so many, at least one.
+    Count(usize),
+    /// As many as it takes to come everywhere this near to the surface, m; 1000 at most.
+    Error(f64),
+}
+
+/// How a clump lies to the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Placement {
+    /// All spheres inside.
+    Inscribed,
+    /// All radii larger by the mean distance of the inscribed clump, so that as much lies outside as is missing inside.
+    Balanced,
+}
+
+/// Most spheres that an error bound may lead to. Contacts of such a clump already cost more than a fine mesh.
+const MOST_SPHERES: usize = 1000;
+
+/// A clump for a closed surface. Samples are the panels' centroids, so the surface has to be cut finer than the spheres
+/// are apart. With `mirror` the surface is taken to be symmetric about z = 0 and the clump is too: both caps then feel
+/// the same. Fewer spheres come back only when the surface has fewer distinct medial balls.
+pub(super) fn fit_clump(surface: &Panels, budget: SphereBudget, placement: Placement, mirror: bool) -> Clump {
     let keep = |p: &Vector3<f64>| !mirror || p.z >= 0.0;
     let samples = Samples {
         points: surface.centroids.iter().copied().filter(keep).collect(),
@@ -30,13 +52,41 @@ pub(super) fn fit(surface: &Panels, count: usize, mirror: bool) -> Clump {
             .map(|(_, &a)| a)
             .collect(),
     };
+    let tree = TriangleTree::new(surface.corners().collect());
     let candidates: Vec<Candidate> = (0..surface.len())
         .filter(|&k| keep(&surface.centroids[k]))
-        .map(|k| Candidate::new(medial_ball(surface, k), mirror))
+        .map(|k| Candidate::new(medial_ball(surface, &tree, k), &tree, mirror))
         .collect();
-    let mut picks = pick(&samples, &candidates, count);
-    exchange(&samples, &candidates, &mut picks);
-    Clump { spheres: picks.iter().flat_map(|&k| candidates[k].spheres()).collect() }
+    let clump = |count: usize| {
+        let mut picks = pick(&samples, &candidates, count);
+        exchange(&samples, &candidates, &mut picks);
+        let mut clump = Clump { spheres: picks.iter().flat_map(|&k| candidates[k].spheres()).collect() };
+        if placement == Placement::Balanced {
+            let larger = clump.deviation(surface).mean;
+            clump.spheres.iter_mut().for_each(|s| s.radius += larger);
+        }
+        clump
+    };
+    match budget {
+        SphereBudget::Count(count) => clump(count),
+        SphereBudget::Error(error) => {
+            let good = |clump: &Clump| clump.deviation(surface).largest <= error;
+            let (mut best, mut too_few) = (clump(1), 0);
+            while !good(&best) && best.spheres.len() < MOST_SPHERES {
+                too_few = best.spheres.len();
+                best = clump((2 * too_few).min(MOST_SPHERES));
+                if best.spheres.len() <= too_few {
+                    return best;
+                }
+            }
+            // Halves the interval between too few and enough.
+            while best.spheres.len() - too_few > 1 {
+                let middle = clump(usize::midpoint(too_few, best.spheres.len()));
+                if good(&middle) { best = middle } else { too_few = middle.spheres.len() }
+            }
+            best
+        }
+    }
 }
 
 /// Points of the surface with the area each stands for.
@@ -52,12 +102,12 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Balls that all but reach the mirror plane are put onto it.
-    fn new(mut sphere: Sphere, mirror: bool) -> Self {
+    /// Balls whose centre all but reaches the mirror plane are put onto it.
+    fn new(mut sphere: Sphere, tree: &TriangleTree, mirror: bool) -> Self {
         let on_plane = sphere.center.z.abs() < 0.02 * sphere.radius;
         if mirror && on_plane {
-            sphere.radius -= sphere.center.z.abs();
             sphere.center.z = 0.0;
+            sphere.radius = tree.nearest(&sphere.center).distance;
         }
         Self { sphere, mirrored: mirror && !on_plane }
     }
@@ -81,71 +131,22 @@ impl Candidate {
 }
 
 /// The largest sphere inside the surface that touches it at the centroid of panel `k`: a large ball shrinks until no
-/// sample is inside (Ma, Bae and Choi 2012, Vis. Computer 28, 7), then until no panel is crossed.
-fn medial_ball(surface: &Panels, k: usize) -> Sphere {
+/// point of the surface is inside (the shrinking ball of Ma, Bae and Choi 2012, Vis. Computer 28, 7).
+fn medial_ball(surface: &Panels, tree: &TriangleTree, k: usize) -> Sphere {
     let (touch, normal) = (surface.centroids[k], surface.normals[k]);
     let mut radius = surface.vertices.iter().map(|v| (v - touch).norm()).fold(0.0, f64::max);
     loop {
         let center = touch - normal * radius;
-        let nearest = (0..surface.len())
-            .map(|j| (surface.centroids[j] - center).norm_squared())
-            .enumerate()
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map_or(k, |(j, _)| j);
-        let to_touch = touch - surface.centroids[nearest];
-        let along = normal.dot(&to_touch);
-        let smaller = to_touch.norm_squared() / (2.0 * along);
-        if nearest == k || along <= 0.0 || smaller > radius * (1.0 - 1e-6) {
-            return Sphere { center, radius: radius.min(clearance(surface, &center)) };
-        }
-        radius = smaller;
-    }
-}
-
-/// Distance of a point to the nearest panel, m.
-fn clearance(surface: &Panels, point: &Vector3<f64>) -> f64 {
-    let mut nearest = f64::INFINITY;
-    for (k, triangle) in surface.triangles.iter().enumerate() {
-        let corners = triangle.map(|v| surface.vertices[v as usize]);
-        let reach =
-            corners.iter().map(|c| (c - surface.centroids[k]).norm_squared()).fold(0.0, f64::max).sqrt();
-        if (point - surface.centroids[k]).norm() - reach < nearest {
-            nearest = nearest.min((point - closest_point(&corners, point)).norm());
+        let foot = tree.nearest(&center);
+        let to_touch = touch - foot.point;
+        let smaller = to_touch.norm_squared() / (2.0 * normal.dot(&to_touch));
+        // Near the end the touching point itself, or its neighbour, is the nearest; then nothing is left to gain.
+        if foot.distance < radius * (1.0 - 1e-6) && smaller > 0.0 && smaller < radius * (1.0 - 1e-6) {
+            radius = smaller;
+        } else {
+            return Sphere { center, radius: radius.min(foot.distance) };
         }
     }
-    nearest
-}
-
-/// The point of a triangle nearest to `p` (Ericson 2005, Real-Time Collision Detection, section 5.1.5).
-pub(super) fn closest_point(corners: &[Vector3<f64>; 3], p: &Vector3<f64>) -> Vector3<f64> {
-    let [a, b, c] = *corners;
-    let (ab, ac) = (b - a, c - a);
-    let (d1, d2) = (ab.dot(&(p - a)), ac.dot(&(p - a)));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return a;
-    }
-    let (d3, d4) = (ab.dot(&(p - b)), ac.dot(&(p - b)));
-    if d3 >= 0.0 && d4 <= d3 {
-        return b;
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return a + ab * (d1 / (d1 - d3));
-    }
-    let (d5, d6) = (ab.dot(&(p - c)), ac.dot(&(p - c)));
-    if d6 >= 0.0 && d5 <= d6 {
-        return c;
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return a + ac * (d2 / (d2 - d6));
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-    }
-    let denominator = 1.0 / (va + vb + vc);
-    a + ab * (vb * denominator) + ac * (vc * denominator)
 }
 
 /// Area-weighted drop of the square distances when a candidate is added, m⁴.
@@ -241,4 +242,97 @@ fn neighbours(candidates: &[Candidate], k: usize) -> Vec<usize> {
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     near.truncate(NEIGHBOURS);
     near.into_iter().map(|(_, j)| j).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Cap, Outline, Recipe};
+    use crate::shapes::imported::ImportedSolid;
+    use crate::shapes::{ClosedMesh, Deviation, Solid};
+
+    const MM: f64 = 1e-3;
+
+    fn oval() -> Solid {
+        let outline = Outline::Oval { length: 19.2 * MM, width: 10.8 * MM, fourth_harmonic: -0.2211 * MM };
+        let cap = Cap::Compound { height: 1.5814 * MM, exponent: 3.5728 };
+        Solid::new(&Recipe::Pressed { outline, band: 4.6971 * MM, cap }).expect("a good recipe")
+    }
+
+    fn deviation(clump: &Clump) -> Deviation {
+        clump.deviation(&oval().panels(6000).expect("a surface"))
+    }
+
+    #[test]
+    fn an_error_bound_is_met_with_few_spheres() {
+        let clump = oval().clump(SphereBudget::Error(0.7 * MM), Placement::Inscribed);
+        let largest = deviation(&clump).largest;
+        assert!(largest < 0.75 * MM, "{largest}");
+        assert!(clump.spheres.len() < 60, "{}", clump.spheres.len());
+    }
+
+    #[test]
+    fn a_balanced_clump_is_as_much_outside_as_inside() {
+        let budget = SphereBudget::Count(50);
+        let (inside, balanced) =
+            (oval().clump(budget, Placement::Inscribed), oval().clump(budget, Placement::Balanced));
+        let surface = oval().panels(6000).expect("a surface");
+        let mean = |clump: &Clump| -> f64 {
+            let signed = |(c, a): (&Vector3<f64>, &f64)| clump.distance(c) * a;
+            surface.centroids.iter().zip(&surface.areas).map(signed).sum::<f64>()
+                / surface.areas.iter().sum::<f64>()
+        };
+        assert!(mean(&balanced).abs() < 0.02 * mean(&inside), "{} {}", mean(&balanced), mean(&inside));
+        let volume_error = |clump: &Clump| (clump.union().0.volume / oval().volume() - 1.0).abs();
+        assert!(volume_error(&balanced) < 0.25 * volume_error(&inside));
+        assert!(deviation(&balanced).largest < deviation(&inside).largest);
+    }
+
+    #[test]
+    fn more_spheres_make_smoother_faces() {
+        let of = |count| deviation(&oval().clump(SphereBudget::Count(count), Placement::Inscribed));
+        let (few, many) = (of(20), of(100));
+        assert!(
+            many.mean < 0.6 * few.mean && many.cap_roughness < 0.6 * few.cap_roughness,
+            "{few:?} {many:?}"
+        );
+    }
+
+    #[test]
+    fn one_sphere_is_the_largest_that_fits_a_ball_like_solid() {
+        let recipe =
+            Recipe::Round { diameter: 10.0 * MM, band: 0.0, cap: Cap::Spherical { height: 5.0 * MM } };
+        let clump = Solid::new(&recipe).expect("good").clump(SphereBudget::Count(1), Placement::Inscribed);
+        assert!((clump.spheres[0].radius - 5.0 * MM).abs() < 0.02 * MM);
+        assert!(clump.spheres[0].center.norm() < 0.05 * MM);
+    }
+
+    /// An L of 10 × 10 × 4 mm with arms 4 mm wide: spheres stay in the arms and do not bridge the notch.
+    #[test]
+    fn a_concave_solid_is_filled_from_inside() {
+        let plan = [[0., 0.], [10., 0.], [10., 4.], [4., 4.], [4., 10.], [0., 10.]];
+        let level = |z: f64| plan.map(|[x, y]| Vector3::new(x * MM, y * MM, z * MM));
+        let vertices = [level(0.0), level(4.0)].concat();
+        let top = [[6, 7, 8], [6, 8, 9], [6, 9, 10], [6, 10, 11]];
+        let mut triangles: Vec<[u32; 3]> = top.to_vec();
+        triangles.extend(top.map(|[a, b, c]| [a - 6, c - 6, b - 6]));
+        for k in 0..6 {
+            let next = (k + 1) % 6;
+            triangles.extend([[k, next, next + 6], [k, next + 6, k + 6]]);
+        }
+        let solid = ImportedSolid::new(&ClosedMesh { vertices, triangles, repairs: Vec::new() });
+        assert!((solid.mass.volume - 256.0 * MM.powi(3)).abs() < 1e-20);
+        let surface = solid.panels(5000);
+        let clump = fit_clump(&surface, SphereBudget::Count(60), Placement::Inscribed, false);
+        let deviation = clump.deviation(&surface);
+        assert_eq!(clump.spheres.len(), 60);
+        assert!(surface.centroids.iter().all(|c| clump.distance(c) > -1e-3 * MM));
+        assert!(deviation.mean < 0.3 * MM, "{deviation:?}");
+    }
+
+    #[test]
+    fn the_same_surface_gives_the_same_clump() {
+        let fit = || oval().clump(SphereBudget::Count(30), Placement::Inscribed);
+        assert_eq!(fit(), fit());
+    }
 }

@@ -36,30 +36,37 @@ impl SurfaceMesh {
     /// triangles of the same part that share an edge are in one patch when their normals differ by less than
     /// `max_angle` (rad). A sphere feels one contact per patch.
     pub fn patches(&self, max_angle: f64) -> Vec<u32> {
-        let mut edges: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
-        for (t, [a, b, c]) in self.triangles.iter().enumerate() {
-            for (u, v) in [(a, b), (b, c), (c, a)] {
-                edges.entry((*u.min(v), *u.max(v))).or_default().push(t);
-            }
-        }
-        let mut root: Vec<usize> = (0..self.triangles.len()).collect();
-        for sharers in edges.values() {
-            if let [s, t] = sharers[..]
-                && self.parts[s] == self.parts[t]
-                && self.normal(s).dot(&self.normal(t)) > max_angle.cos()
-            {
-                let (s, t) = (find(&mut root, s), find(&mut root, t));
-                root[s.max(t)] = s.min(t);
-            }
-        }
-        let mut numbers = BTreeMap::new();
-        (0..root.len())
-            .map(|t| {
-                let next = numbers.len() as u32;
-                *numbers.entry(find(&mut root, t)).or_insert(next)
-            })
-            .collect()
+        let smooth = |s: usize, t: usize| {
+            self.parts[s] == self.parts[t] && self.normal(s).dot(&self.normal(t)) > max_angle.cos()
+        };
+        patches(&self.triangles, smooth)
     }
+}
+
+/// Numbers sets of triangles that hang together across edges which have two triangles and are smooth between them.
+pub(super) fn patches(triangles: &[[u32; 3]], smooth: impl Fn(usize, usize) -> bool) -> Vec<u32> {
+    let mut edges: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for (t, [a, b, c]) in triangles.iter().enumerate() {
+        for (u, v) in [(a, b), (b, c), (c, a)] {
+            edges.entry((*u.min(v), *u.max(v))).or_default().push(t);
+        }
+    }
+    let mut root: Vec<usize> = (0..triangles.len()).collect();
+    for sharers in edges.values() {
+        if let [s, t] = sharers[..]
+            && smooth(s, t)
+        {
+            let (s, t) = (find(&mut root, s), find(&mut root, t));
+            root[s.max(t)] = s.min(t);
+        }
+    }
+    let mut numbers = BTreeMap::new();
+    (0..root.len())
+        .map(|t| {
+            let next = numbers.len() as u32;
+            *numbers.entry(find(&mut root, t)).or_insert(next)
+        })
+        .collect()
 }
 
 /// The smallest member of the set `t` is in; shortens the way there.

@@ -54,18 +54,8 @@ impl Panels {
         self.triangles.is_empty()
     }
 
-    /// Smallest angle of any panel, rad. Below 20 degrees the pixels of a panel depend on how it lies in the raster.
-    pub fn smallest_angle(&self) -> f64 {
-        self.triangles
-            .iter()
-            .map(|t| t.map(|v| self.vertices[v as usize]))
-            .flat_map(|[a, b, c]| [(b - a).angle(&(c - a)), (c - b).angle(&(a - b)), (a - c).angle(&(b - c))])
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    /// Largest panel area over the smallest, dimensionless.
-    pub fn area_ratio(&self) -> f64 {
-        let largest = self.areas.iter().copied().fold(0.0, f64::max);
-        largest / self.areas.iter().copied().fold(f64::INFINITY, f64::min)
+    /// Corners of each panel, m.
+    pub fn corners(&self) -> impl Iterator<Item = [Vector3<f64>; 3]> {
+        self.triangles.iter().map(|t| t.map(|v| self.vertices[v as usize]))
     }
 }

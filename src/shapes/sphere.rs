@@ -40,7 +40,7 @@ pub(super) fn sphere_panels(radius: f64, count: usize) -> Panels {
 
 /// Unit vectors to the corners and the faces, counter-clockwise seen from outside.
 fn icosahedron() -> ([Vector3<f64>; 12], [[usize; 3]; 20]) {
-    let g = (1.0 + 5f64.sqrt()) / 2.0;
+    let g = f64::midpoint(1.0, 5f64.sqrt());
     let corners = [
         [-1., g, 0.],
         [1., g, 0.],
@@ -96,7 +96,7 @@ mod tests {
         // Equilateral triangles of edge a lie a²/8R below the sphere on average, a² = 16 π R²/(√3 n).
         let missing = 1.0 - solid.volume / (4.0 / 3.0 * PI * 8.0);
         assert_relative_eq!(missing, 6.0 * PI / (3f64.sqrt() * 1620.0), max_relative = 0.03);
-        assert!(panels.area_ratio() < 1.3, "{}", panels.area_ratio());
-        assert!(panels.smallest_angle() > 50f64.to_radians());
+        assert!(panels.quality().area_ratio < 1.3, "{}", panels.quality().area_ratio);
+        assert!(panels.quality().smallest_angle_deg > 50.0);
     }
 }

@@ -1,9 +1,8 @@
-//! STL files of surface meshes.
+//! Surface meshes as STL files.
 
-use super::{Part, ShapeError, SurfaceMesh};
+use super::{ShapeError, SurfaceMesh};
 use nalgebra::Vector3;
 use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 /// Writes a mesh as binary STL, in units of `scale` metres (0.001: the file is in mm). STL keeps single precision and
@@ -30,27 +29,10 @@ pub fn write_stl(mesh: &SurfaceMesh, path: &Path, scale: f64) -> Result<(), Shap
     stl_io::write_stl(&mut file, triangles.iter()).map_err(fault)
 }
 
-/// Reads an STL file, ascii or binary, whose unit is `scale` metres. Equal vertices are welded; every triangle is of
-/// [`Part::Wall`], because STL knows no parts.
-///
-/// # Errors
-/// [`ShapeError::Read`] when the file cannot be read or is not STL.
-pub fn read_stl(path: &Path, scale: f64) -> Result<SurfaceMesh, ShapeError> {
-    let fault = |source| ShapeError::Read { path: path.to_owned(), source };
-    let file = File::open(path).map_err(fault)?;
-    let mesh = stl_io::read_stl(&mut BufReader::new(file)).map_err(fault)?;
-    let triangles: Vec<[u32; 3]> = mesh.faces.iter().map(|f| f.vertices.map(|v| v as u32)).collect();
-    Ok(SurfaceMesh {
-        vertices: mesh.vertices.iter().map(|v| Vector3::from(v.0.map(f64::from)) * scale).collect(),
-        parts: vec![Part::Wall; triangles.len()],
-        triangles,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shapes::{default_pan, drum_mesh};
+    use crate::shapes::{default_pan, drum_mesh, read_surface};
 
     #[test]
     fn written_and_read_back() {
@@ -58,7 +40,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let path = folder.path().join("pan.stl");
         write_stl(&mesh, &path, 0.001).expect("written");
-        let back = read_stl(&path, 0.001).expect("read");
+        let back = read_surface(&path, 0.001).expect("read");
         assert_eq!(back.vertices.len(), mesh.vertices.len());
         for (a, b) in back.triangles.iter().zip(&mesh.triangles) {
             for (&u, &v) in a.iter().zip(b) {
@@ -73,8 +55,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let path = folder.path().join("pan.stl");
         write_stl(&drum_mesh(&default_pan()), &path, 0.001).expect("written");
-        let stored = read_stl(&Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pan.stl"), 0.001);
-        let (fresh, stored) = (read_stl(&path, 0.001).expect("read"), stored.expect("meshes/pan.stl"));
+        let stored = read_surface(&Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pan.stl"), 0.001);
+        let (fresh, stored) = (read_surface(&path, 0.001).expect("read"), stored.expect("meshes/pan.stl"));
         assert_eq!(fresh.triangles, stored.triangles);
         for (a, b) in fresh.vertices.iter().zip(&stored.vertices) {
             assert!((a - b).norm() < 1e-7, "{a} {b}");
@@ -83,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_missing_file_is_named() {
-        let fault = read_stl(Path::new("no/such/pan.stl"), 1.0).expect_err("there is no such file");
+        let fault = read_surface(Path::new("no/such/pan.stl"), 1.0).expect_err("there is no such file");
         assert!(fault.to_string().starts_with("cannot read no/such/pan.stl"));
     }
 }

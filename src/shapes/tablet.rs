@@ -1,19 +1,8 @@
 //! A tablet shape: recipe in, clump, panels and mass properties out.
 
-use super::cap::CapProfile;
-use super::clump_file::read_clump;
-use super::clump_fit;
-use super::outline::Outline;
-use super::pressed::PressedSolid;
-use super::sphere::sphere_panels;
-use super::{Clump, Panels, Sphere};
-use crate::scene::{Recipe, Shape};
+use super::{Clump, Panels, Placement, ShapeError, Solid, SphereBudget};
+use crate::scene::Shape;
 use nalgebra::Vector3;
-use std::f64::consts::PI;
-
-/// Triangles of the surface to which clumps are fitted: edges of 0.5 mm on the tablets of the field, well below the
-/// distance between the spheres of a 100-sphere clump. The time grows with its square.
-const FIT_PANELS: usize = 5000;
 
 /// A shape ready for a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,106 +22,45 @@ pub struct TabletShape {
     pub panels: Option<Panels>,
 }
 
-/// Why a shape cannot be built or stored.
-#[derive(Debug, thiserror::Error)]
-pub enum ShapeError {
-    /// A file could not be read.
-    #[error("cannot read {path}: {source}")]
-    Read {
-        /// The file.
-        path: std::path::PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// A file could not be written.
-    #[error("cannot write {path}: {source}")]
-    Write {
-        /// The file.
-        path: std::path::PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// A file's content is not what it should be.
-    #[error("{path}:{line}: {fault}")]
-    Content {
-        /// The file.
-        path: std::path::PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// What is wrong and what is expected.
-        fault: String,
-    },
-    /// Panels were asked of a clump recipe.
-    #[error(
-        "shape `{name}` is given sphere by sphere and has no surface to spray: \
-         leave the spray out, or describe the solid by its dimensions"
-    )]
-    NoSurface {
-        /// Name of the shape.
-        name: String,
-    },
-}
-
 impl TabletShape {
     /// Builds a shape from its recipe, with panels only when they are asked for.
     ///
-    /// The clump of a pressed tablet has exactly `shape.spheres` spheres, all inside the solid and symmetric about its
-    /// middle plane; a sphere is always one sphere; a clump recipe has the spheres of its file. The panels are about
-    /// `shape.panels`, as near as whole rings (pressed tablets) or icosahedron cuts (spheres) come.
+    /// The clump has exactly `shape.spheres` spheres, all inside the solid; a sphere is always one sphere, a clump
+    /// recipe has the spheres of its file. The panels are about `shape.panels`, as near as whole rings (pressed tablets),
+    /// icosahedron cuts (spheres) or sharp edges (meshes) let them come.
     ///
     /// # Errors
-    /// [`ShapeError::Read`] and [`ShapeError::Content`] for the file of a clump recipe, [`ShapeError::NoSurface`] when
-    /// panels of it are asked for.
+    /// [`ShapeError::Recipe`] for dimensions that make no solid, [`ShapeError::NoSurface`] when panels of a clump recipe
+    /// are asked for, and those of the files of clump and mesh recipes.
     pub fn build(shape: &Shape, with_panels: bool) -> Result<Self, ShapeError> {
-        match &shape.recipe {
-            Recipe::Sphere { diameter } => Ok(Self::sphere(shape, diameter / 2.0, with_panels)),
-            &Recipe::Round { diameter, band, cap } => {
-                let outline = Outline::circle(diameter);
-                let cap = CapProfile { cap, radius: diameter / 2.0 };
-                Ok(Self::pressed(shape, &PressedSolid { outline, band, cap }, with_panels))
-            }
-            Recipe::Clump { path, inertia_per_mass } => {
-                if with_panels {
-                    return Err(ShapeError::NoSurface { name: shape.name.clone() });
-                }
-                let clump = read_clump(path)?;
-                let (volume, area) = clump.volume_and_area();
-                let inertia_per_mass = Vector3::from(*inertia_per_mass);
-                Ok(Self { name: shape.name.clone(), volume, area, inertia_per_mass, clump, panels: None })
-            }
+        let name = shape.name.clone();
+        if let Some(fault) = shape.recipe.fault() {
+            return Err(ShapeError::Recipe { name, fault });
         }
-    }
-
-    fn sphere(shape: &Shape, radius: f64, with_panels: bool) -> Self {
-        Self {
-            name: shape.name.clone(),
-            volume: 4.0 / 3.0 * PI * radius.powi(3),
-            area: 4.0 * PI * radius.powi(2),
-            inertia_per_mass: Vector3::repeat(0.4 * radius * radius),
-            clump: Clump { spheres: vec![Sphere { center: Vector3::zeros(), radius }] },
-            panels: with_panels.then(|| sphere_panels(radius, shape.panels)),
-        }
-    }
-
-    fn pressed(shape: &Shape, solid: &PressedSolid, with_panels: bool) -> Self {
-        let mass = solid.mass();
-        Self {
-            name: shape.name.clone(),
-            volume: mass.volume,
-            area: solid.cap_area() + solid.band_area(),
-            inertia_per_mass: mass.inertia_per_mass.diagonal(),
-            clump: clump_fit::fit(&solid.mesh(FIT_PANELS, mass.center), shape.spheres, true),
-            panels: with_panels.then(|| solid.mesh(shape.panels, mass.center)),
-        }
+        let solid = Solid::new(&shape.recipe)?;
+        let panels = if with_panels {
+            Some(solid.panels(shape.panels).ok_or_else(|| ShapeError::NoSurface { name: name.clone() })?)
+        } else {
+            None
+        };
+        Ok(Self {
+            name,
+            volume: solid.volume(),
+            area: solid.area(),
+            inertia_per_mass: solid.inertia_per_mass(),
+            clump: solid.clump(SphereBudget::Count(shape.spheres), Placement::Inscribed),
+            panels,
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Cap;
-    use crate::shapes::{MassProperties, Region};
+    use crate::scene::{Cap, Outline, Recipe};
+    use crate::shapes::{MassProperties, Part, Region, Sphere, SurfaceMesh, write_stl};
     use approx::assert_relative_eq;
+    use std::f64::consts::PI;
 
     const MM: f64 = 1e-3;
 
@@ -158,9 +86,9 @@ mod tests {
         assert_relative_eq!(tablet.volume, 315.206_463e-9, max_relative = 1e-8);
         assert_relative_eq!(tablet.area, 257.610_598e-6, max_relative = 1e-8);
         let inertia = tablet.inertia_per_mass * tablet.volume;
-        assert_relative_eq!(inertia.x, 2255.768_25e-15, max_relative = 1e-8);
-        assert_relative_eq!(inertia.y, 2255.768_25e-15, max_relative = 1e-8);
-        assert_relative_eq!(inertia.z, 3612.936_27e-15, max_relative = 1e-8);
+        assert_relative_eq!(inertia.x, 2.255_768_25e-12, max_relative = 1e-8);
+        assert_relative_eq!(inertia.y, 2.255_768_25e-12, max_relative = 1e-8);
+        assert_relative_eq!(inertia.z, 3.612_936_27e-12, max_relative = 1e-8);
     }
 
     #[test]
@@ -188,9 +116,7 @@ mod tests {
     fn panels_are_good_triangles_with_edges_on_the_rims() {
         for shape in [paper_round(1), round(10.0 * MM, 3.0 * MM, Cap::Spherical { height: MM }, 1)] {
             let (_, panels) = build(&shape);
-            assert!(panels.len().abs_diff(1700) < 20, "{}", panels.len());
-            assert!(panels.smallest_angle() > 20f64.to_radians(), "{}", panels.smallest_angle().to_degrees());
-            assert!(panels.area_ratio() < 3.0, "{}", panels.area_ratio());
+            assert_good(&panels, 1700);
             let Recipe::Round { band, diameter, .. } = shape.recipe else { unreachable!("both are round") };
             for (t, region) in panels.triangles.iter().zip(&panels.regions) {
                 for p in t.map(|v| panels.vertices[v as usize]) {
@@ -232,6 +158,157 @@ mod tests {
         }
     }
 
+    /// The paper's tablets, Table 4: length, width, thickness, area, volume, sphericity, band/face. Cap heights, exponents and
+    /// harmonics are fitted to these; the thickness of the almond follows from its volume and area.
+    #[test]
+    fn tablets_of_table_4() {
+        let mm = |x: f64| x * MM;
+        let cap = |height, exponent| Cap::Compound { height: mm(height), exponent };
+        let almond = Outline::Almond {
+            length: mm(20.6),
+            width: mm(12.1),
+            fourth_harmonic: mm(-0.0403),
+            third_harmonic: mm(0.1807),
+        };
+        let oval = Outline::Oval { length: mm(19.2), width: mm(10.8), fourth_harmonic: mm(-0.2211) };
+        let triangular = Outline::Triangular {
+            length: mm(19.2),
+            width: mm(12.5),
+            fourth_harmonic: mm(-0.1336),
+            third_harmonic: mm(0.35),
+        };
+        let pressed = |outline, band, cap| Recipe::Pressed { outline, band: mm(band), cap };
+        for (name, recipe, expected) in [
+            (
+                "almond",
+                pressed(almond, 4.8671, cap(1.4965, 1.6302)),
+                [20.6, 12.1, 7.86, 644.7, 1182., 0.8383, 0.6385],
+            ),
+            (
+                "oval",
+                pressed(oval, 4.6971, cap(1.5814, 3.5728)),
+                [19.2, 10.8, 7.86, 588.6, 1112., 0.8816, 0.6317],
+            ),
+            ("round", paper_round(1).recipe, [15.9, 15.9, 6.64, 584.5, 1042., 0.8502, 0.3842]),
+            // The table prints a band/face of 0.1561, which no convex caps reach; with the digits swapped all else fits.
+            (
+                "triangular",
+                pressed(triangular, 4.9048, cap(1.7776, 2.5124)),
+                [19.2, 12.5, 8.46, 652.1, 1300., 0.8835, 0.6151],
+            ),
+        ] {
+            let shape = Shape { name: name.into(), recipe, spheres: 1, panels: 1800 };
+            let tablet = TabletShape::build(&shape, true).expect("a good recipe");
+            let m = tablet.measures().expect("there are panels");
+            let found = [m.length_mm, m.width_mm, m.thickness_mm, m.area_mm2, m.volume_mm3, m.sphericity];
+            for (found, expected) in found.iter().zip(&expected) {
+                assert_relative_eq!(found, expected, max_relative = 2e-3);
+            }
+            assert_relative_eq!(m.band_to_face, expected[6], max_relative = 1e-2);
+            // The panels themselves, whose vertices lie on the solid and whose faces just inside, come within 0.5 %.
+            let panels = tablet.panels.expect("there are panels");
+            let solid = MassProperties::of_polyhedron(&panels.vertices, &panels.triangles);
+            let (area, volume) = (panels.areas.iter().sum::<f64>() * 1e6, solid.volume * 1e9);
+            assert_relative_eq!(area, expected[3], max_relative = 5e-3);
+            assert_relative_eq!(volume, expected[4], max_relative = 5e-3);
+            assert_relative_eq!(
+                (36.0 * PI * volume * volume).cbrt() / area,
+                expected[5],
+                max_relative = 5e-3
+            );
+            assert!(solid.center.norm() < 0.01 * MM, "{name} {}", solid.center);
+            assert_good(&panels, 1800);
+        }
+    }
+
+    /// Closed, of about the number asked for, without slivers and even.
+    fn assert_good(panels: &Panels, count: usize) {
+        let quality = panels.quality();
+        assert!(panels.len().abs_diff(count) * 20 < count, "{quality:?}");
+        assert!(quality.smallest_angle_deg > 20.0 && quality.area_ratio < 3.0, "{quality:?}");
+        assert_eq!(panels.vertices.len(), panels.len() / 2 + 2);
+        let closing: Vector3<f64> = panels.normals.iter().zip(&panels.areas).map(|(n, a)| n * *a).sum();
+        assert!(closing.norm() < 1e-12 * panels.areas.iter().sum::<f64>());
+    }
+
+    fn other_shapes() -> Vec<Shape> {
+        let (length, width) = (12.0 * MM, 8.0 * MM);
+        let cup = Cap::Spherical { height: 1.2 * MM };
+        let bevel = Cap::Bevelled { height: 0.5 * MM, width: 0.6 * MM };
+        [
+            ("capsule", Outline::Capsule { length: 19.0 * MM, width: 7.0 * MM }, cup),
+            ("bullet", Outline::Bullet { length, width }, cup),
+            ("half moon", Outline::HalfMoon { length: 14.0 * MM, width: 7.0 * MM }, cup),
+            ("shield", Outline::Shield { length, width }, cup),
+            ("flat-faced round", Outline::Capsule { length: 9.0 * MM, width: 9.0 * MM }, bevel),
+            ("flat-faced capsule", Outline::Capsule { length: 19.0 * MM, width: 8.0 * MM }, bevel),
+            ("long capsule", Outline::Capsule { length: 20.0 * MM, width: 5.0 * MM }, cup),
+            ("low half moon", Outline::HalfMoon { length: 14.0 * MM, width: 4.0 * MM }, cup),
+            (
+                "flat oval",
+                Outline::Oval { length, width, fourth_harmonic: 0.0 },
+                Cap::Spherical { height: 0.0 },
+            ),
+        ]
+        .into_iter()
+        .map(|(name, outline, cap)| {
+            let recipe = Recipe::Pressed { outline, band: 4.0 * MM, cap };
+            Shape { name: name.into(), recipe, spheres: 50, panels: 1750 }
+        })
+        .collect()
+    }
+
+    #[test]
+    fn every_outline_gives_good_panels_and_a_close_clump() {
+        for shape in other_shapes() {
+            let (tablet, panels) = build(&shape);
+            let deviation = tablet.clump.deviation(&panels);
+            assert_good(&panels, 1750);
+            assert_eq!(tablet.clump.spheres.len(), 50);
+            let fine = Solid::new(&shape.recipe).expect("good").panels(3500).expect("a surface");
+            let inside = fine.centroids.iter().all(|c| tablet.clump.distance(c) > -0.02 * MM);
+            assert!(inside, "{}", shape.name);
+            assert!(
+                deviation.mean < 0.25 * MM && deviation.largest < 0.8 * MM,
+                "{} {deviation:?}",
+                shape.name
+            );
+            let solid = MassProperties::of_polyhedron(&fine.vertices, &fine.triangles);
+            assert_relative_eq!(solid.volume, tablet.volume, max_relative = 5e-3);
+            let moments = solid.inertia_per_mass.diagonal();
+            assert_relative_eq!(moments, tablet.inertia_per_mass, max_relative = 5e-3);
+        }
+    }
+
+    /// A tablet of panels written to a file and read back is the same tablet.
+    #[test]
+    fn a_mesh_gives_what_the_recipe_gives() {
+        let mut shape = other_shapes().swap_remove(1);
+        let (tablet, panels) = build(&shape);
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let path = folder.path().join("bullet.stl");
+        let shift = Vector3::new(3.0 * MM, -2.0 * MM, 5.0 * MM);
+        let mesh = SurfaceMesh {
+            vertices: panels.vertices.iter().map(|v| v + shift).collect(),
+            triangles: panels.triangles.clone(),
+            parts: vec![Part::Wall; panels.len()],
+        };
+        write_stl(&mesh, &path, MM).expect("written");
+        shape.recipe = Recipe::Mesh { path, scale: MM };
+        let (imported, new_panels) = build(&shape);
+        assert_relative_eq!(imported.volume, tablet.volume, max_relative = 5e-3);
+        assert_relative_eq!(imported.area, tablet.area, max_relative = 5e-3);
+        assert_relative_eq!(imported.inertia_per_mass, tablet.inertia_per_mass, max_relative = 6e-3);
+        assert_good(&new_panels, 1750);
+        let band = |p: &Panels| -> f64 {
+            p.areas.iter().zip(&p.regions).filter(|&(_, &r)| r == Region::Band).map(|(a, _)| a).sum()
+        };
+        assert_relative_eq!(band(&new_panels), band(&panels), max_relative = 5e-3);
+        let deviation = imported.clump.deviation(&panels);
+        assert_eq!(imported.clump.spheres.len(), 50);
+        assert!(deviation.mean < 0.25 * MM, "{deviation:?}");
+    }
+
     #[test]
     fn sphere_is_one_sphere() {
         let shape =
@@ -242,8 +319,12 @@ mod tests {
 
     #[test]
     fn clump_recipe_has_no_surface() {
-        let recipe = Recipe::Clump { path: "none".into(), inertia_per_mass: [1.0; 3] };
+        let file = tempfile::NamedTempFile::new().expect("a file for the test");
+        std::fs::write(file.path(), "0 0 0 1e-3\n").expect("written");
+        let recipe = Recipe::Clump { path: file.path().to_owned(), inertia_per_mass: [4e-7; 3] };
         let shape = Shape { name: "glued".into(), recipe, spheres: 2, panels: 1700 };
+        let tablet = TabletShape::build(&shape, false).expect("a good clump");
+        assert_relative_eq!(tablet.volume, 4.0 / 3.0 * PI * 1e-9, max_relative = 1e-6);
         let fault = TabletShape::build(&shape, true).expect_err("no surface");
         assert!(fault.to_string().starts_with("shape `glued` is given sphere by sphere"));
     }

@@ -2,7 +2,8 @@
 
 use approx::assert_relative_eq;
 use pancoat::scene::{
-    Aim, BoundarySurface, Cap, ContactMode, DampingMass, Recipe, Scene, Settle, StepChoice, TangentialLaw,
+    Aim, BoundarySurface, Cap, ContactMode, Cycle, DampingMass, Flux, Footprint, Outline, Pattern, Rays,
+    Recipe, Scene, Settle, StepChoice, TangentialLaw,
 };
 use std::f64::consts::PI;
 
@@ -29,7 +30,7 @@ fn the_round_scene_is_the_papers_case() {
     let baffles = drum.baffles.expect("has baffles");
     assert_eq!((baffles.count, baffles.height, baffles.thickness), (4, 0.012, 0.006));
     assert_relative_eq!(baffles.tilt, PI / 9.0, max_relative = 1e-15);
-    assert_eq!(scene.time.step, StepChoice::PerContact(60.0));
+    assert_eq!(scene.time.step, StepChoice::PerContact(25.0));
     assert_eq!(scene.time.settle, Settle::Auto { at_most: 20.0 });
     assert_eq!((scene.time.duration, scene.time.frame_interval), (20.0, 0.02));
     let spray = scene.spray.expect("has a spray");
@@ -87,4 +88,58 @@ fn left_out_sections_have_the_documented_defaults() {
     assert_eq!(scene.contact, pancoat::scene::ContactSettings::default());
     assert_eq!(scene.outputs.series_interval, 0.5);
     assert!(scene.outputs.report && scene.outputs.picture && scene.outputs.statistics);
+}
+
+#[test]
+fn every_solid_can_be_written() {
+    let scene = Scene::load(&super::folder("tests/scenes/good/solids.ron"), &[]).expect("loads");
+    let pressed = |name: &str| {
+        let shape = scene.shapes.iter().find(|shape| shape.name == name).expect("is in the file");
+        let Recipe::Pressed { outline, band, cap } = shape.recipe else { panic!("{name} is pressed") };
+        (outline, band, cap)
+    };
+    let (length, width, fourth_harmonic, third_harmonic) = (20e-3, 12e-3, -0.125e-3, 0.25e-3);
+    let flat = Cap::Spherical { height: 0.0 };
+    let bevelled = Cap::Bevelled { height: 0.5e-3, width: 1e-3 };
+    let compound = Cap::Compound { height: 1.5e-3, exponent: 3.0 };
+    assert_eq!(pressed("oval"), (Outline::Oval { length, width, fourth_harmonic }, 4e-3, compound));
+    let plain = Outline::Oval { length, width, fourth_harmonic: 0.0 };
+    assert_eq!(pressed("plain oval"), (plain, 4e-3, flat));
+    let almond = Outline::Almond { length, width, fourth_harmonic: 0.0, third_harmonic };
+    assert_eq!(pressed("almond"), (almond, 4e-3, bevelled));
+    let triangular = Outline::Triangular { length, width, fourth_harmonic, third_harmonic };
+    assert_eq!(pressed("triangular").0, triangular);
+    assert_eq!(pressed("capsule").0, Outline::Capsule { length, width });
+    assert_eq!(pressed("bullet").0, Outline::Bullet { length, width });
+    assert_eq!(pressed("half moon").0, Outline::HalfMoon { length, width: 8e-3 });
+    assert_eq!(pressed("shield").0, Outline::Shield { length, width });
+    let mesh = scene.shapes.last().expect("is in the file");
+    let Recipe::Mesh { path, scale } = &mesh.recipe else { panic!("is a mesh") };
+    assert!(path.ends_with("good/box.stl"));
+    assert_eq!((*scale, mesh.spheres), (1e-3, 50));
+}
+
+#[test]
+fn every_spray_can_be_written() {
+    let pattern = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
+        let file = super::folder("tests/scenes/good/solids.ron");
+        Scene::load(&file, &overrides).expect("loads").spray.expect("has a spray").pattern
+    };
+    let written = pattern(&[]);
+    assert_eq!((written.footprint, written.rays), (Footprint::Ellipse, Rays::Diverging));
+    assert_eq!(written.flux, Flux::Dumbbell { offset: 0.5, sigma: 0.25 });
+    assert_relative_eq!(written.tilt.spanwise, -PI / 18.0, max_relative = 1e-15);
+    assert_relative_eq!(written.tilt.streamwise, PI / 9.0, max_relative = 1e-15);
+    assert_eq!(written.nozzles, [-0.02, 0.02]);
+    assert_eq!(written.cycle, Some(Cycle { on: 2.0, off: 0.5 }));
+    let flux = |set: &str| pattern(&[set]).flux;
+    assert_eq!(flux("spray.flux=Gaussian(sigma: 0.5)"), Flux::Gaussian { sigma: 0.5 });
+    assert_eq!(flux("spray.flux=Annular(inner: 0.5)"), Flux::Annular { inner: 0.5 });
+    let Flux::Table { path } = flux("spray.flux=Table(file: \"patternator.csv\")") else {
+        panic!("is a table")
+    };
+    assert!(path.ends_with("good/patternator.csv"));
+    let round = Scene::embedded("round").expect("is embedded").spray.expect("has a spray");
+    assert_eq!(round.pattern, Pattern::default());
 }

@@ -1,7 +1,7 @@
 //! How much each pixel of the zone is worth.
 
 use super::CoaterError;
-use crate::scene::{Flux, Outline, Pattern};
+use crate::scene::{Flux, Footprint, Pattern};
 use std::path::Path;
 
 /// Weight of the pixel that receives the most.
@@ -18,7 +18,7 @@ pub(super) fn weights(pattern: &Pattern, pixels: [u32; 2]) -> Result<Vec<u32>, C
         _ => None,
     };
     let flux = |s: f64, t: f64| match (&pattern.flux, &table) {
-        _ if pattern.outline == Outline::Ellipse && s.hypot(t) > 1.0 => 0.0,
+        _ if pattern.footprint == Footprint::Ellipse && s.hypot(t) > 1.0 => 0.0,
         (Flux::Gaussian { sigma }, _) => gauss(s.hypot(t), *sigma),
         (Flux::Annular { inner }, _) => f64::from(s.hypot(t) >= *inner),
         (Flux::Dumbbell { offset, sigma }, _) => {
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn an_ellipse_covers_pi_over_four_of_its_rectangle() {
-        let ellipse = Pattern { outline: Outline::Ellipse, ..Pattern::default() };
+        let ellipse = Pattern { footprint: Footprint::Ellipse, ..Pattern::default() };
         assert!((share(&ellipse) - std::f64::consts::FRAC_PI_4).abs() < 2e-3);
         assert_eq!(share(&Pattern::default()), 1.0);
         let ring = Pattern { flux: Flux::Annular { inner: 0.5 }, ..ellipse };

@@ -4,7 +4,7 @@ use super::CoaterError;
 use super::flux::weights;
 use super::view::{View, jitter};
 use crate::observers::SprayZone;
-use crate::scene::{Cycle, Flux, Outline, Rays, Spray, Tilt};
+use crate::scene::{Cycle, Flux, Footprint, Rays, Spray, Tilt};
 use nalgebra::{Rotation3, Unit};
 
 /// One nozzle or several, side by side.
@@ -22,7 +22,7 @@ impl SprayGun {
     /// The gun of `spray`, aimed at `zone`.
     pub(super) fn new(zone: &SprayZone, spray: &Spray) -> Result<Self, CoaterError> {
         let pattern = &spray.pattern;
-        let even = pattern.outline == Outline::Rectangle && pattern.flux == Flux::Uniform;
+        let even = pattern.footprint == Footprint::Rectangle && pattern.flux == Flux::Uniform;
         let zones = pattern.nozzles.iter().map(|offset| {
             let center = zone.center + zone.spanwise * *offset;
             SprayZone { center, ..tilted(zone, pattern.tilt) }

@@ -1,10 +1,13 @@
 //! Whether the parts of a scene fit together.
 
 use super::super::fault::FaultKind;
-use super::super::model::{Aim, Cap, Drum, Recipe, Scene};
+use super::super::model::{Aim, Drum, Scene, Spray};
 use super::super::path::KeyPath;
+use super::super::recipe::Recipe;
+use super::pattern::LONGEST_PHASE;
+use super::size::volume_and_extent;
 use super::{Allowed, Checker};
-use crate::units::Length;
+use crate::units::{Length, TimeSpan};
 use std::f64::consts::PI;
 
 /// Largest solid volume over the drum's. Spheres poured and shaken pack to 0.64; these have to move.
@@ -27,10 +30,13 @@ pub(super) fn fit_together(c: &mut Checker<'_>, scene: &Scene) {
     if let Some(drum) = &scene.drum {
         bodies_inside(c, scene, drum);
         tablets_inside(c, scene, drum);
-        spray_inside(c, scene, drum);
+        if let Some(spray) = &scene.spray {
+            spray_inside(c, spray, drum);
+        }
     }
-    if scene.spray.is_some() {
+    if let Some(spray) = &scene.spray {
         sprayed(c, scene);
+        no_burst_between_frames(c, spray, scene.time.frame_interval);
     }
 }
 
@@ -63,8 +69,7 @@ fn bodies_inside(c: &mut Checker<'_>, scene: &Scene, drum: &Drum) {
     }
 }
 
-fn spray_inside(c: &mut Checker<'_>, scene: &Scene, drum: &Drum) {
-    let Some(spray) = &scene.spray else { return };
+fn spray_inside(c: &mut Checker<'_>, spray: &Spray, drum: &Drum) {
     let at = KeyPath::default().field("spray");
     let mut within = |path: KeyPath, extent: f64, room: f64| {
         if extent > room {
@@ -73,10 +78,25 @@ fn spray_inside(c: &mut Checker<'_>, scene: &Scene, drum: &Drum) {
     };
     within(at.field("spanwise"), spray.spanwise, drum.width);
     within(at.field("streamwise"), spray.streamwise, drum.diameter);
+    let room = (drum.width - spray.spanwise) / 2.0;
+    for (i, offset) in spray.pattern.nozzles.iter().enumerate() {
+        // Rounding of the subtraction is no fault.
+        if room >= 0.0 && offset.abs() > room + 1e-9 {
+            c.out_of_range::<Length>(&at.field("nozzles").index(i), Allowed::from(-room).to(room));
+        }
+    }
     if let Aim::Fixed { target, .. } = spray.aim
         && (target.x.hypot(target.y) > drum.diameter / 2.0 || target.z.abs() > drum.width / 2.0)
     {
         c.fault(&at.field("aim").field("target"), FaultKind::OutsideDrum);
+    }
+}
+
+/// The coater looks at the bed once a frame: a spray shorter than that could be missed.
+fn no_burst_between_frames(c: &mut Checker<'_>, spray: &Spray, frame_interval: f64) {
+    if spray.pattern.cycle.is_some_and(|cycle| cycle.on < frame_interval) {
+        let path = KeyPath::default().field("spray").field("cycle").field("on");
+        c.out_of_range::<TimeSpan>(&path, Allowed::from(frame_interval).to(LONGEST_PHASE));
     }
 }
 
@@ -96,45 +116,5 @@ fn sprayed(c: &mut Checker<'_>, scene: &Scene) {
         if used && matches!(shape.recipe, Recipe::Clump { .. }) {
             c.fault(&at.field("shapes").field(&shape.name).field("recipe"), FaultKind::NoSurface);
         }
-    }
-}
-
-/// Volume, m³, and largest extent, m, of the solid; `None` if only its spheres are known.
-///
-/// A cap of height h over a circle of radius R holds πh(3R² + h²)/6 if it is part of a sphere, and
-/// ∫₀¹ h(1 − sᵐ) 2πR² s ds = πR² h m/(m + 2) if it is compound with exponent m (derived here).
-fn volume_and_extent(recipe: &Recipe) -> Option<(f64, f64)> {
-    match *recipe {
-        Recipe::Sphere { diameter } => Some((PI / 6.0 * diameter.powi(3), diameter)),
-        Recipe::Round { diameter, band, cap } => {
-            let r2 = diameter * diameter / 4.0;
-            let (height, cap_volume) = match cap {
-                Cap::Spherical { height } => (height, PI * height * (3.0 * r2 + height * height) / 6.0),
-                Cap::Compound { height, exponent } => {
-                    (height, PI * r2 * height * exponent / (exponent + 2.0))
-                }
-            };
-            Some((PI * r2 * band + 2.0 * cap_volume, diameter.max(band + 2.0 * height)))
-        }
-        Recipe::Clump { .. } => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    /// The paper's round tablet has 1042 mm³; a ball is a band of no height with two hemispheres.
-    #[test]
-    fn volumes_of_tablets() {
-        let cap = Cap::Compound { height: 1.6973e-3, exponent: 2.8823 };
-        let (volume, extent) = volume_and_extent(&Recipe::Round { diameter: 15.9e-3, band: 3.2452e-3, cap })
-            .expect("is a solid");
-        assert_relative_eq!(volume, 1042e-9, max_relative = 1e-3);
-        assert_eq!(extent, 15.9e-3);
-        let halves = Recipe::Round { diameter: 2.0, band: 0.0, cap: Cap::Spherical { height: 1.0 } };
-        let ball = volume_and_extent(&Recipe::Sphere { diameter: 2.0 }).expect("is a solid");
-        assert_relative_eq!(volume_and_extent(&halves).expect("is a solid").0, ball.0, max_relative = 1e-15);
     }
 }

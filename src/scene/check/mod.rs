@@ -9,7 +9,10 @@ mod drum;
 mod fit;
 mod materials;
 mod moving;
+mod pattern;
+mod recipe;
 mod shapes;
+mod size;
 mod spray;
 mod time;
 

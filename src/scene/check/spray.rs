@@ -2,9 +2,8 @@
 
 use super::super::model::{Aim, Deposit, Spray};
 use super::super::path::KeyPath;
-use super::super::pattern::Pattern;
 use super::super::spec::{AimSpec, DepositSpec, SpraySpec};
-use super::{Allowed, Checker};
+use super::{Allowed, Checker, pattern};
 use crate::units::{Number, Whole};
 use nalgebra::Vector3;
 
@@ -22,6 +21,7 @@ const FILM_DENSITY: f64 = 1300.0;
 
 pub(super) fn spray(c: &mut Checker<'_>, spec: SpraySpec) -> Spray {
     let at = KeyPath::default().field("spray");
+    let pattern = pattern::pattern(c, &at, &spec);
     let path = at.field("pixels");
     let (across, along) = spec.pixels.unzip();
     let mut pixels = |i: usize, value: Option<Whole>| {
@@ -47,7 +47,7 @@ pub(super) fn spray(c: &mut Checker<'_>, spec: SpraySpec) -> Spray {
         aim,
         pixels,
         deposit: self::deposit(c, &at.field("deposit"), deposit),
-        pattern: Pattern::default(),
+        pattern,
     }
 }
 
