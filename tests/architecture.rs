@@ -19,13 +19,8 @@ const ROOMS: [(&str, &[&str]); 10] = [
 ];
 
 /// Outside crates and the only room that may name them.
-const CRATES: [(&str, &str); 5] = [
-    ("rapier3d", "world"),
-    ("ron", "scene"),
-    ("clap", "cli"),
-    ("indicatif", "cli"),
-    ("plotly", "report"),
-];
+const CRATES: [(&str, &str); 5] =
+    [("rapier3d", "world"), ("ron", "scene"), ("clap", "cli"), ("indicatif", "cli"), ("plotly", "report")];
 
 /// Lines of code and comments a file may have before its tests.
 const LONGEST: usize = 400;

@@ -200,24 +200,12 @@ pub enum BoundarySurface {
 /// Choices of the contact law, each with the documented default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ContactSettings {
-    /// What turns overlaps into motion.
-    pub mode: ContactMode,
     /// Cut the normal force at zero when the dashpot would pull.
     pub no_tension: bool,
     /// How the tangential spring follows a changing overlap.
     pub tangential: TangentialLaw,
     /// Which mass the dashpots see.
     pub damping_mass: DampingMass,
-}
-
-/// What turns overlaps into motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ContactMode {
-    /// Hertz-Mindlin forces of our own.
-    #[default]
-    HertzMindlin,
-    /// Rapier's impulse solver at millisecond steps: a quick look, not the method.
-    Impulse,
 }
 
 /// Tangential spring law.

@@ -202,17 +202,9 @@ pub(super) enum SurfaceSpec {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Contact")]
 pub(super) struct ContactSpec {
-    pub(super) mode: Option<ModeSpec>,
     pub(super) no_tension: Option<bool>,
     pub(super) tangential: Option<TangentialSpec>,
     pub(super) damping_mass: Option<DampingMassSpec>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename = "Mode")]
-pub(super) enum ModeSpec {
-    HertzMindlin,
-    Impulse,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]

@@ -6,8 +6,8 @@ use super::frame::BodyState;
 use super::stopwatch::{Phase, Stopwatch};
 use super::time_step::TimeStep;
 use crate::contact::{ContactField, Tally, Wrench};
-use crate::scene::{BoundarySurface, Scene};
-use crate::shapes::{SurfaceMesh, TabletShape, drum_mesh};
+use crate::scene::{Boundary, BoundarySurface, Scene};
+use crate::shapes::{SurfaceMesh, TabletShape, drum_mesh, read_surface};
 use crate::world::{Motion, World};
 use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
@@ -76,7 +76,7 @@ impl Simulation {
             tally: Tally::default(),
             stopwatch: Stopwatch::default(),
         };
-        simulation.add_surfaces();
+        simulation.add_surfaces()?;
         for body in &scene.bodies {
             let state = BodyState {
                 position: body.position,
@@ -89,14 +89,17 @@ impl Simulation {
         Ok(simulation)
     }
 
-    fn add_surfaces(&mut self) {
+    fn add_surfaces(&mut self) -> Result<(), SimulationError> {
         if let (Some(drum), Some(mesh)) = (&self.scene.drum, &self.drum) {
             let index = self.world.add_surface(mesh);
             self.field.add_mesh(mesh, index, drum.material, true);
             self.drives.push((Vector3::zeros(), Vector3::z() * drum.speed));
             self.meshes += 1;
         }
-        for boundary in &self.scene.boundaries {
+        let is_mesh = |b: &&Boundary| matches!(b.surface, BoundarySurface::Mesh { .. });
+        let boundaries = &self.scene.boundaries;
+        let meshes_first = boundaries.iter().filter(is_mesh).chain(boundaries.iter().filter(|b| !is_mesh(b)));
+        for boundary in meshes_first {
             let drive = (boundary.velocity, boundary.spin);
             match &boundary.surface {
                 BoundarySurface::Plane { point, normal } => {
@@ -111,11 +114,18 @@ impl Simulation {
                         self.drives.extend([drive; 2]);
                     }
                 }
-                BoundarySurface::Mesh { .. } => {}
+                BoundarySurface::Mesh { path, scale } => {
+                    let mesh = read_surface(path, *scale)?;
+                    let index = self.world.add_surface(&mesh);
+                    self.field.add_mesh(&mesh, index, boundary.material, false);
+                    self.drives.push(drive);
+                    self.meshes += 1;
+                }
             }
         }
         self.surfaces = vec![Motion::at_rest(); self.drives.len()];
         self.move_surfaces();
+        Ok(())
     }
 
     pub(super) fn add_body(&mut self, shape: usize, material: usize, mass: f64, state: &BodyState) {

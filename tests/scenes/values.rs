@@ -2,8 +2,8 @@
 
 use approx::assert_relative_eq;
 use pancoat::scene::{
-    Aim, BoundarySurface, Cap, ContactMode, Cycle, DampingMass, Flux, Footprint, Outline, Pattern, Rays,
-    Recipe, Scene, Settle, StepChoice, TangentialLaw,
+    Aim, BoundarySurface, Cap, Cycle, DampingMass, Flux, Footprint, Outline, Pattern, Rays, Recipe, Scene,
+    Settle, StepChoice, TangentialLaw,
 };
 use std::f64::consts::PI;
 
@@ -67,7 +67,6 @@ fn every_key_has_its_effect() {
     assert_eq!(scene.boundaries[1].velocity.x, 1e-3);
     let BoundarySurface::Mesh { scale, .. } = scene.boundaries[2].surface else { panic!("is a mesh") };
     assert_eq!(scale, 1e-3);
-    assert_eq!(scene.contact.mode, ContactMode::Impulse);
     assert_eq!(scene.contact.tangential, TangentialLaw::Rescaled);
     assert_eq!(scene.contact.damping_mass, DampingMass::Contact);
     assert!(scene.contact.no_tension);

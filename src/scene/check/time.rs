@@ -1,11 +1,9 @@
 //! Step, duration, outputs and the choices of the contact law.
 
-use super::super::model::{
-    ContactMode, ContactSettings, DampingMass, Outputs, Settle, StepChoice, TangentialLaw, Time,
-};
+use super::super::model::{ContactSettings, DampingMass, Outputs, Settle, StepChoice, TangentialLaw, Time};
 use super::super::path::KeyPath;
 use super::super::spec::{
-    ContactSpec, DampingMassSpec, ModeSpec, OutputsSpec, SettleSpec, StepSpec, TangentialSpec, TimeSpec,
+    ContactSpec, DampingMassSpec, OutputsSpec, SettleSpec, StepSpec, TangentialSpec, TimeSpec,
 };
 use super::{Allowed, Checker};
 
@@ -62,10 +60,6 @@ pub(super) fn contact(spec: Option<ContactSpec>) -> ContactSettings {
     let default = ContactSettings::default();
     let Some(spec) = spec else { return default };
     ContactSettings {
-        mode: spec.mode.map_or(default.mode, |mode| match mode {
-            ModeSpec::HertzMindlin => ContactMode::HertzMindlin,
-            ModeSpec::Impulse => ContactMode::Impulse,
-        }),
         no_tension: spec.no_tension.unwrap_or(default.no_tension),
         tangential: spec.tangential.map_or(default.tangential, |law| match law {
             TangentialSpec::Total => TangentialLaw::Total,
