@@ -124,7 +124,7 @@ impl OutlineCurve {
             Outline::HalfMoon { .. } => {
                 // Circle through the ends of a chord L and the top W above it: R = (L²/4 + W²)/2W.
                 let radius = (length * length / 4.0 + width * width) / (2.0 * width);
-                let from = ((radius - width) / radius).asin();
+                let from = (radius - width).atan2(length / 2.0);
                 let center = at(0.0, width - radius);
                 let arc = Segment::Arc { center, radius, from, through: PI - 2.0 * from };
                 Self::with_corners(vec![line(at(-length / 2.0, 0.0), at(length / 2.0, 0.0)), arc], vec![0, 1])
@@ -132,8 +132,7 @@ impl OutlineCurve {
             Outline::Shield { .. } => {
                 // Arc from (0, W/2), leaving along −x, to (−L, 0): its centre is (0, W/2 − R), R = (L² + W²/4)/W.
                 let radius = (length * length + half * half) / width;
-                let through = (length / radius).asin();
-                let through = if half > radius { PI - through } else { through };
+                let through = length.atan2(radius - half);
                 let arc = |y: f64, from: f64| Segment::Arc { center: at(0.0, y), radius, from, through };
                 Self::with_corners(
                     vec![

@@ -217,8 +217,24 @@ mod tests {
                 max_relative = 5e-3
             );
             assert!(solid.center.norm() < 0.01 * MM, "{name} {}", solid.center);
+            // Cauchy: a convex solid shows a quarter of its surface, averaged over all directions.
+            let shown = mean_projected_area(&panels) * 1e6;
+            assert_relative_eq!(shown, expected[3] / 4.0, max_relative = 5e-3);
             assert_good(&panels, 1800);
         }
+    }
+
+    /// Over 200 even directions, m².
+    fn mean_projected_area(panels: &Panels) -> f64 {
+        let toward = |k: u32| {
+            let z = 1.0 - f64::from(2 * k + 1) / 200.0;
+            let (sin, cos) = (2.399_963_229_728_653 * f64::from(k)).sin_cos();
+            Vector3::new(cos * (1.0 - z * z).sqrt(), sin * (1.0 - z * z).sqrt(), z)
+        };
+        let shown = |s: Vector3<f64>| -> f64 {
+            panels.normals.iter().zip(&panels.areas).map(|(n, area)| n.dot(&s).max(0.0) * area).sum()
+        };
+        (0..200).map(|k| shown(toward(k))).sum::<f64>() / 200.0
     }
 
     /// Closed, of about the number asked for, without slivers and even.
