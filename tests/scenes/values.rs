@@ -97,7 +97,7 @@ fn every_solid_can_be_written() {
         let Recipe::Pressed { outline, band, cap } = shape.recipe else { panic!("{name} is pressed") };
         (outline, band, cap)
     };
-    let (length, width, fourth_harmonic, third_harmonic) = (20e-3, 12e-3, -0.125e-3, 0.25e-3);
+    let (length, width, fourth_harmonic, third_harmonic) = (20e-3, 12e-3, -0.125e-3, 0.125e-3);
     let flat = Cap::Spherical { height: 0.0 };
     let bevelled = Cap::Bevelled { height: 0.5e-3, width: 1e-3 };
     let compound = Cap::Compound { height: 1.5e-3, exponent: 3.0 };
