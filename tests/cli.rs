@@ -164,7 +164,7 @@ fn check_says_what_is_on_and_what_is_left_out() {
         "batch               769 tablets \"round\" of 1300 mg, 50 spheres",
         "drum                250 mm across, 100 mm wide, 22.0 rpm, 4 baffles",
         "spray               76.2 x 38.1 mm, 512 x 256 pixels, square to the bed",
-        "steps per contact   30.",
+        "steps per contact   60.",
         "Rayleigh fraction",
         "static overlap",
         "memory              about",
@@ -213,7 +213,7 @@ fn a_signal_stops_with_75() {
         .spawn()
         .expect("starts");
     let begun = Instant::now();
-    while !Path::new(&out).join("series.csv").exists() && begun.elapsed() < Duration::from_secs(60) {
+    while !Path::new(&out).join("series.csv").exists() && begun.elapsed() < Duration::from_mins(1) {
         std::thread::sleep(Duration::from_millis(20));
     }
     let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();

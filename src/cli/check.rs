@@ -23,7 +23,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
         print_line(&format!("{name:<20}{text}"))?;
     }
     guards::refuse(&scene, &shapes, &step)?;
-    for warning in guards::warnings(&step, step.impact_overlap) {
+    for warning in guards::warnings(&shapes, &step, step.impact_overlap) {
         print_line(&format!("{:<20}{warning}", "warning"))?;
     }
     Ok(())

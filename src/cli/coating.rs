@@ -316,7 +316,7 @@ impl Observer for Coating {
     fn observe(&mut self, frame: &Frame<'_>) {
         self.coater.observe(frame);
         for shape in &mut self.shapes {
-            shape.passes.observe(frame, self.coater.zone(), self.coater.exposed());
+            shape.passes.observe(frame, &self.coater.zones()[0], self.coater.exposed());
         }
     }
 }

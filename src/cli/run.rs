@@ -119,7 +119,8 @@ impl Session {
         let step = simulation.time_step();
         let overlap = simulation.deepest_overlap();
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
-        self.record.warnings = guards::warnings(step, overlap).iter().map(ToString::to_string).collect();
+        self.record.warnings =
+            guards::warnings(simulation.shapes(), step, overlap).iter().map(ToString::to_string).collect();
         self.record.state_hash = Some(simulation.state_hash());
         self.record.performance = Performance {
             wall_s: self.watch.wall_s(),
@@ -168,7 +169,7 @@ impl Session {
                 drum_angle: simulation.drum_angle(),
                 drum_torque: simulation.drum_torque(),
             };
-            let image = picture.draw(&frame, &outcome.film, Some(coating.coater.zone()));
+            let image = picture.draw(&frame, &outcome.film, Some(&coating.coater.zones()[0]));
             image.write_png(&self.directory.path().join("bed.png")).map_err(Failure::Output)?;
         }
         Ok(())

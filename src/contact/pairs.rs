@@ -241,11 +241,8 @@ impl BodyPair {
                 continue;
             }
             while memory.next_if(|l| (l.i, l.j) < (i, j)).is_some() {}
-            let until = travelled + gap;
-            self.links.push(match memory.next_if(|l| (l.i, l.j) == (i, j)) {
-                Some(link) => Link { until, ..*link },
-                None => Link { i, j, touching: false, until, spring: Spring::default() },
-            });
+            let fresh = Link { i, j, touching: false, until: travelled + gap, spring: Spring::default() };
+            self.links.push(*memory.next_if(|l| (l.i, l.j) == (i, j)).unwrap_or(&fresh));
         }
     }
 

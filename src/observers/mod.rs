@@ -1,9 +1,10 @@
-//! What looks at frames: the ID-raster coater, bed statistics, the bed picture. Observers never see the world or each
+//! What looks at frames: the ID-raster coater, bed statistics, the bed picture, poses on disk. Observers never see the world or each
 //! other, and cannot change the motion.
 
 mod aim;
 mod coater;
 mod picture;
+mod poses;
 pub mod statistics;
 mod zone;
 
@@ -12,6 +13,7 @@ pub use coater::{
     CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
 };
 pub use picture::{BedPicture, Image};
+pub use poses::{Packing, PoseError, PoseReader, Recorder, StoredFrame, read_pose_table};
 pub use zone::SprayZone;
 
 pub use crate::stepping::Observer;

@@ -49,7 +49,7 @@ impl SprayZone {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Aim, Deposit};
+    use crate::scene::{Aim, Deposit, Pattern};
 
     fn spray() -> Spray {
         Spray {
@@ -59,6 +59,7 @@ mod tests {
             aim: Aim::Bed,
             pixels: [512, 256],
             deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+            pattern: Pattern::default(),
         }
     }
 

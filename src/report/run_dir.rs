@@ -147,8 +147,7 @@ impl RunDir {
         for row in rows {
             writer.serialize(row).map_err(fault)?;
         }
-        let bytes =
-            writer.into_inner().map_err(|broken| fault(io::Error::from(broken.into_error()).into()))?;
+        let bytes = writer.into_inner().map_err(|broken| fault(broken.into_error().into()))?;
         self.write(name, &bytes)
     }
 

@@ -1,5 +1,6 @@
 //! The validated scene. All numbers are SI; all references between parts are indices into the scene's own lists.
 
+use super::pattern::Pattern;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::path::PathBuf;
 
@@ -335,6 +336,8 @@ pub struct Spray {
     pub pixels: [u32; 2],
     /// How much is sprayed.
     pub deposit: Deposit,
+    /// What the spray looks like.
+    pub pattern: Pattern,
 }
 
 /// Where a spray points.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 mod overrides;
 mod text;
+mod units;
 mod values;
 
 fn folder(name: &str) -> PathBuf {

@@ -1,5 +1,7 @@
 //! Solids in panels, made here so that tests and benches of the coater stand on nothing but its interface.
 
+#![allow(dead_code, reason = "each test and bench takes the solids it needs")]
+
 use nalgebra::Vector3;
 use pancoat::shapes::{Clump, Panels, Region, Sphere, TabletShape};
 use std::collections::HashMap;
@@ -29,6 +31,17 @@ pub(crate) fn solid(name: &str, vertices: Vec<Vector3<f64>>, triangles: Vec<[u32
             vertices,
         }),
     }
+}
+
+/// A box of the given sides in twelve panels.
+pub(crate) fn block(sides: [f64; 3]) -> TabletShape {
+    let corner = |k: usize| {
+        let sign = |bit: usize| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
+        Vector3::new(sides[0] * sign(0), sides[1] * sign(1), sides[2] * sign(2))
+    };
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = faces.iter().flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]).collect();
+    solid("block", (0..8).map(corner).collect(), triangles)
 }
 
 /// A sphere of 20 · 4^`splits` panels.

@@ -3,12 +3,14 @@
 use super::CoaterError;
 use super::drum::DrumMesh;
 use super::film::PanelIds;
-use super::raster::{IdRaster, PixelBox, ScreenVertex, Sides};
-use super::view::{Placement, View};
+use super::raster::{Bounds, IdRaster};
+use super::triangle::{LANES, ScreenVertex, Sides};
+use super::view::{Lens, Placement, View};
 use crate::shapes::{Panels, SurfaceMesh, TabletShape};
 use crate::stepping::{BodyState, Frame};
 use nalgebra::Vector3;
 use std::borrow::Borrow;
+use wide::f32x4;
 
 /// Everything a view can see, the same in every frame but for the poses.
 #[derive(Debug, Clone)]
@@ -30,7 +32,8 @@ pub(in crate::observers) struct Canvas {
 /// The panels of a shape, ready for drawing.
 #[derive(Debug, Clone)]
 struct Solid {
-    vertices: Vec<[f32; 3]>,
+    /// Body coordinates of the vertices, some at a time; the last ones repeat a vertex.
+    vertices: Vec<[f32x4; 3]>,
     triangles: Vec<[u32; 3]>,
     /// Middle of the box about the vertices, m.
     middle: [f32; 3],
@@ -44,7 +47,7 @@ struct Candidate {
     body: usize,
     nearest: f32,
     placement: Placement,
-    area: PixelBox,
+    area: Bounds,
 }
 
 impl Bed {
@@ -75,9 +78,10 @@ impl Bed {
 
     /// Draws a frame as `view` sees it.
     ///
-    /// Bodies wholly above the near plane are left out; a body that reaches through it is drawn whole.
+    /// For parallel rays, bodies wholly above the nozzle are left out and one that reaches through its plane is drawn
+    /// whole. A pinhole leaves out what comes closer to it than a twentieth of its distance.
     pub(in crate::observers) fn draw(&self, view: &View, frame: &Frame<'_>, canvas: &mut Canvas) {
-        canvas.raster.clear(self.ids.panels() + PanelIds::OTHERS - 1);
+        canvas.raster.clear(self.ids.panels() + PanelIds::EMPTY);
         if let Some(drum) = &self.drum {
             drum.draw(view, frame.drum_angle, self.ids.panels(), &mut canvas.raster);
         }
@@ -93,8 +97,7 @@ impl Bed {
         candidates.sort_unstable_by(|a, b| a.nearest.total_cmp(&b.nearest).then(a.body.cmp(&b.body)));
         for candidate in &candidates {
             if !canvas.raster.hides(&candidate.area, candidate.nearest) {
-                self.draw_body(candidate.body, &candidate.placement, canvas);
-                canvas.raster.settle(&candidate.area);
+                self.draw_body(candidate.body, view.lens(), &candidate.placement, canvas);
             }
         }
         canvas.candidates = candidates;
@@ -103,31 +106,58 @@ impl Bed {
     fn candidate(&self, view: &View, body: usize, state: &BodyState, raster: &IdRaster) -> Option<Candidate> {
         let placement = view.place(state);
         let solid = &self.solids[self.body_shape[body]];
-        let middle = placement.apply(solid.middle);
-        let reach: [f32; 3] = std::array::from_fn(|k| {
-            (0..3).map(|axis| placement.turn[k][axis].abs() * solid.half[axis]).sum()
-        });
-        if middle[2] + reach[2] < 0.0 {
-            return None;
-        }
-        let area = raster.pixels_between(
-            [middle[0] - reach[0], middle[1] - reach[1]],
-            [middle[0] + reach[0], middle[1] + reach[1]],
-        )?;
-        // A hair nearer than computed, so that rounding never hides a body at the same depth.
-        let nearest = ((middle[2] - reach[2]) - 1e-5 * reach[2] - 1e-6 * middle[2].abs()).max(0.0);
-        Some(Candidate { body, nearest, placement, area })
+        let (middle, half) = placement.box_about(solid.middle, solid.half);
+        let bounds = view.lens().screen_box(middle, half)?;
+        let area = raster.pixels_between(bounds.min, bounds.max)?;
+        Some(Candidate { body, nearest: bounds.nearest, placement, area })
     }
 
-    fn draw_body(&self, body: usize, placement: &Placement, canvas: &mut Canvas) {
+    /// Draws a body unless it turns out, vertex by vertex, to be hidden after all.
+    fn draw_body(&self, body: usize, lens: &Lens, placement: &Placement, canvas: &mut Canvas) {
         let solid = &self.solids[self.body_shape[body]];
         canvas.vertices.clear();
-        canvas
-            .vertices
-            .extend(solid.vertices.iter().map(|&vertex| ScreenVertex::new(placement.apply(vertex))));
+        let mut bounds = ScreenBounds::EMPTY;
+        for point in &solid.vertices {
+            let seen = lens.screen(placement.apply(point));
+            bounds.include(seen);
+            canvas.vertices.extend(ScreenVertex::snap(seen));
+        }
+        let Some(area) = bounds.pixels(&canvas.raster) else { return };
+        if canvas.raster.hides(&area, bounds.nearest()) {
+            return;
+        }
         for (id, triangle) in (self.ids.id(body, 0)..).zip(&solid.triangles) {
             canvas.raster.draw(triangle.map(|vertex| canvas.vertices[vertex as usize]), id, Sides::Front);
         }
+        canvas.raster.settle(&area);
+    }
+}
+
+/// The box about what is seen of a body.
+struct ScreenBounds {
+    min: [f32x4; 3],
+    max: [f32x4; 3],
+}
+
+impl ScreenBounds {
+    const EMPTY: Self =
+        Self { min: [f32x4::splat(f32::INFINITY); 3], max: [f32x4::splat(f32::NEG_INFINITY); 3] };
+
+    fn include(&mut self, seen: [f32x4; 3]) {
+        for ((min, max), seen) in self.min.iter_mut().zip(&mut self.max).zip(seen) {
+            *min = min.fast_min(seen);
+            *max = max.fast_max(seen);
+        }
+    }
+
+    fn nearest(&self) -> f32 {
+        self.min[2].to_array().into_iter().fold(f32::INFINITY, f32::min)
+    }
+
+    fn pixels(&self, raster: &IdRaster) -> Option<Bounds> {
+        let [left, top, _] = self.min.map(|v| v.to_array().into_iter().fold(f32::INFINITY, f32::min));
+        let [right, bottom, _] = self.max.map(|v| v.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max));
+        raster.pixels_between([left, top], [right, bottom])
     }
 }
 
@@ -145,7 +175,15 @@ impl Solid {
         let (min, max) = (fold(f64::min), fold(f64::max));
         let single = |v: &Vector3<f64>| v.data.0[0].map(|x| x as f32);
         Self {
-            vertices: panels.vertices.iter().map(single).collect(),
+            vertices: panels
+                .vertices
+                .chunks(LANES)
+                .map(|some| {
+                    std::array::from_fn(|k| {
+                        std::array::from_fn(|lane| some[lane.min(some.len() - 1)][k] as f32).into()
+                    })
+                })
+                .collect(),
             triangles: panels.triangles.clone(),
             middle: single(&((min + max) / 2.0)),
             half: single(&((max - min) / 2.0)),
@@ -159,6 +197,7 @@ mod tests {
     use crate::observers::SprayZone;
     use crate::observers::coater::tests::{cube, tumbled};
     use crate::observers::coater::view::jitter;
+    use crate::scene::Rays;
 
     fn zone() -> SprayZone {
         SprayZone {
@@ -173,31 +212,27 @@ mod tests {
 
     /// Every body, near or not, hidden or not, in the order given.
     fn draw_all(bed: &Bed, view: &View, bodies: &[BodyState], order: &[usize], canvas: &mut Canvas) {
-        canvas.raster.clear(bed.ids.panels() + PanelIds::OTHERS - 1);
+        canvas.raster.clear(bed.ids.panels() + PanelIds::EMPTY);
         for &body in order {
-            let placement = view.place(&bodies[body]);
-            let reach = bed.solids[0].half.iter().map(|h| h * h).sum::<f32>().sqrt();
-            if placement.at[2] > -reach {
-                bed.draw_body(body, &placement, canvas);
-            }
+            bed.draw_body(body, view.lens(), &view.place(&bodies[body]), canvas);
         }
     }
 
     #[test]
     fn what_is_left_out_would_not_have_been_seen() {
         let cubes = [cube(0.01)];
-        // All below the nozzle: the reference above drops bodies by a coarser rule.
+        // All below the nozzle: the reference above drops none.
         let bodies = tumbled(120, [0.05, 0.03, 0.06], 1);
         let bed = Bed::new(&cubes, &vec![0; bodies.len()], None).unwrap();
-        for index in 0..8 {
-            let view = View::new(&zone(), [200, 100], jitter(index));
+        for (index, rays) in (0..8).flat_map(|index| [(index, Rays::Parallel), (index, Rays::Diverging)]) {
+            let view = View::new(&zone(), rays, [200, 100], jitter(index));
             let frame = Frame { index, time: 0.0, bodies: &bodies, drum_angle: 0.0, drum_torque: 0.0 };
             let (mut culled, mut whole) = (Canvas::new([200, 100]), Canvas::new([200, 100]));
             bed.draw(&view, &frame, &mut culled);
             let order: Vec<usize> = (0..bodies.len()).rev().collect();
             draw_all(&bed, &view, &bodies, &order, &mut whole);
             assert!(culled.candidates.len() < bodies.len());
-            assert!(culled.raster.ids() == whole.raster.ids(), "frame {index}");
+            assert!(culled.raster.rows().eq(whole.raster.rows()), "frame {index} {rays:?}");
         }
     }
 
@@ -214,10 +249,10 @@ mod tests {
         let bodies = [at(0.02, -0.015), at(0.0251, 0.015)];
         let frame = Frame { index: 0, time: 0.0, bodies: &bodies, drum_angle: 0.0, drum_torque: 0.0 };
         let mut canvas = Canvas::new([60, 30]);
-        bed.draw(&View::new(&zone(), [60, 30], [0.0; 2]), &frame, &mut canvas);
+        bed.draw(&View::new(&zone(), Rays::Parallel, [60, 30], [0.0; 2]), &frame, &mut canvas);
         let seen = |body: usize| {
             let ids = bed.ids.of_body(body);
-            canvas.raster.ids().iter().filter(|&&id| ids.contains(&(id as usize))).count()
+            canvas.raster.rows().flatten().filter(|&&id| ids.contains(&(id as usize))).count()
         };
         assert_eq!((seen(0), seen(1)), (100, 0));
     }

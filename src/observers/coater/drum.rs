@@ -1,7 +1,9 @@
 //! The drum in the spray: wall, end walls and baffles hide what is behind them and catch what passes the tablets.
 
-use super::raster::{IdRaster, ScreenVertex, Sides};
-use super::view::View;
+use super::film::PanelIds;
+use super::raster::IdRaster;
+use super::triangle::{ScreenVertex, Sides};
+use super::view::{View, lanes};
 use crate::shapes::{Part, SurfaceMesh};
 use nalgebra::{Rotation3, Vector3};
 
@@ -12,9 +14,9 @@ pub(super) struct DrumMesh(SurfaceMesh);
 /// Number of a part among the numbers that follow those of the panels.
 fn number(part: Part) -> u32 {
     match part {
-        Part::Wall => 0,
-        Part::End(_) => 1,
-        Part::Baffle(_) => 2,
+        Part::Wall => PanelIds::WALL,
+        Part::End(_) => PanelIds::END,
+        Part::Baffle(_) => PanelIds::BAFFLE,
     }
 }
 
@@ -26,32 +28,37 @@ impl DrumMesh {
     /// Draws the drum turned by `angle` (rad about +z), cut off at the near plane, under numbers from `first_id` on.
     pub(super) fn draw(&self, view: &View, angle: f64, first_id: u32, raster: &mut IdRaster) {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
-        let seen: Vec<_> = self.0.vertices.iter().map(|vertex| view.project(&(turn * vertex))).collect();
+        let near = f64::from(view.lens().near());
+        let seen: Vec<_> = self.0.vertices.iter().map(|vertex| view.camera(&(turn * vertex))).collect();
+        let on_screen = |v: &Vector3<f64>| ScreenVertex::snap(view.lens().screen(lanes(v)))[0];
+        let vertices: Vec<_> = seen.iter().map(on_screen).collect();
         for (triangle, &part) in self.0.triangles.iter().zip(&self.0.parts) {
-            let below = below_near_plane(triangle.map(|vertex| seen[vertex as usize]));
-            let vertices: Vec<_> =
-                below.iter().map(|v| ScreenVertex::new(v.data.0[0].map(|x| x as f32))).collect();
-            for k in 2..vertices.len() {
-                raster.draw(
-                    [vertices[0], vertices[k - 1], vertices[k]],
-                    first_id + number(part),
-                    Sides::Both,
-                );
+            let id = first_id + number(part);
+            let corners = triangle.map(|vertex| seen[vertex as usize]);
+            match corners.iter().filter(|corner| corner.z >= near).count() {
+                0 => {}
+                3 => raster.draw(triangle.map(|vertex| vertices[vertex as usize]), id, Sides::Both),
+                _ => {
+                    let cut: Vec<_> = beyond(near, corners).iter().map(on_screen).collect();
+                    for k in 2..cut.len() {
+                        raster.draw([cut[0], cut[k - 1], cut[k]], id, Sides::Both);
+                    }
+                }
             }
         }
         raster.settle_all();
     }
 }
 
-/// The polygon that is left of a triangle (screen coordinates) below depth zero.
-fn below_near_plane(triangle: [Vector3<f64>; 3]) -> Vec<Vector3<f64>> {
+/// The polygon that is left of a triangle (camera coordinates) beyond the near plane.
+fn beyond(near: f64, triangle: [Vector3<f64>; 3]) -> Vec<Vector3<f64>> {
     let mut polygon = Vec::with_capacity(4);
     for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (triangle[a], triangle[b])) {
-        if a.z >= 0.0 {
+        if a.z >= near {
             polygon.push(a);
         }
-        if (a.z < 0.0) != (b.z < 0.0) {
-            polygon.push(a + (b - a) * (a.z / (a.z - b.z)));
+        if (a.z < near) != (b.z < near) {
+            polygon.push(a + (b - a) * ((a.z - near) / (a.z - b.z)));
         }
     }
     polygon
@@ -66,14 +73,14 @@ mod tests {
         let at = |z: [f64; 3]| {
             let corners =
                 [Vector3::new(0.0, 0.0, z[0]), Vector3::new(4.0, 0.0, z[1]), Vector3::new(0.0, 4.0, z[2])];
-            let polygon = below_near_plane(corners);
+            let polygon = beyond(0.5, corners);
             (2..polygon.len())
                 .map(|k| (polygon[k - 1] - polygon[0]).xy().perp(&(polygon[k] - polygon[0]).xy()) / 2.0)
                 .sum::<f64>()
         };
-        assert_eq!(at([1.0, 1.0, 1.0]), 8.0);
-        assert_eq!(at([-1.0, -1.0, -1.0]), 0.0);
-        assert!((at([1.0, -1.0, -1.0]) - 2.0).abs() < 1e-12);
-        assert!((at([-1.0, 1.0, 1.0]) - 6.0).abs() < 1e-12);
+        assert_eq!(at([1.5, 1.5, 1.5]), 8.0);
+        assert_eq!(at([-0.5, -0.5, -0.5]), 0.0);
+        assert!((at([1.5, -0.5, -0.5]) - 2.0).abs() < 1e-12);
+        assert!((at([-0.5, 1.5, 1.5]) - 6.0).abs() < 1e-12);
     }
 }

@@ -23,8 +23,16 @@ pub struct PanelIds {
 }
 
 impl PanelIds {
-    /// Numbers after those of the panels: wall, end walls, baffles, nothing at all.
-    pub(in crate::observers) const OTHERS: u32 = 4;
+    /// The drum's wall, counted from the first number after the panels; as are the following.
+    pub(in crate::observers) const WALL: u32 = 0;
+    /// An end wall.
+    pub(in crate::observers) const END: u32 = 1;
+    /// A baffle.
+    pub(in crate::observers) const BAFFLE: u32 = 2;
+    /// Nothing at all.
+    pub(in crate::observers) const EMPTY: u32 = 3;
+    /// How many they are.
+    pub(super) const OTHERS: u32 = 4;
 
     /// Numbers the panels of bodies that have `panels` panels each.
     ///

@@ -38,32 +38,61 @@ impl CoatLedger {
         Self { counts: vec![0; ids.panels() as usize + PanelIds::OTHERS as usize], frames: 0 }
     }
 
-    /// Adds a frame's picture; replaces `exposed` by the bodies in it, in their order.
-    pub(super) fn add(&mut self, seen: &[u32], ids: &PanelIds, exposed: &mut Vec<Exposure>) {
-        exposed.clear();
+    /// Adds what a nozzle sees, each pixel as often as its weight says, and to `exposed` the bodies seen.
+    pub(super) fn add<'a>(
+        &mut self,
+        rows: impl Iterator<Item = &'a [u32]>,
+        weights: Option<&[u32]>,
+        ids: &PanelIds,
+        exposed: &mut Vec<Exposure>,
+    ) {
+        let seen = rows.flatten().copied();
+        match weights {
+            None => self.add_weighted(seen.map(|id| (id, 1)), ids, exposed),
+            Some(weights) => self.add_weighted(seen.zip(weights.iter().copied()), ids, exposed),
+        }
+    }
+
+    fn add_weighted(
+        &mut self,
+        seen: impl Iterator<Item = (u32, u32)>,
+        ids: &PanelIds,
+        exposed: &mut Vec<Exposure>,
+    ) {
         // Neighbouring pixels mostly show the same body: it is looked up when it changes.
-        let (mut body, mut numbers, mut run) = (None, 0..0_u32, 0);
-        for &id in seen {
-            self.counts[id as usize] += 1;
+        let (mut body, mut numbers, mut counts) = (None, 0..0, 0);
+        for (id, weight) in seen {
+            self.counts[id as usize] += u64::from(weight);
             if !numbers.contains(&id) {
-                exposed.extend(body.map(|body| Exposure { body, counts: run }));
-                run = 0;
+                exposed.extend(body.map(|body| Exposure { body, counts }));
+                counts = 0;
                 body = ids.body(id);
                 numbers = body.map_or(ids.panels()..u32::MAX, |body| ids.numbers(body));
             }
-            run += 1;
+            counts += u64::from(weight);
         }
-        exposed.extend(body.map(|body| Exposure { body, counts: run }));
+        exposed.extend(body.map(|body| Exposure { body, counts }));
+    }
+
+    /// Ends a frame: makes one of all entries of a body in `exposed`, in the order of the bodies.
+    pub(super) fn end_frame(&mut self, exposed: &mut Vec<Exposure>) {
         exposed.sort_unstable_by_key(|exposure| exposure.body);
         exposed.dedup_by(|next, kept| {
             let same = next.body == kept.body;
             kept.counts += if same { next.counts } else { 0 };
             same
         });
+        exposed.retain(|exposure| exposure.counts > 0);
         self.frames += 1;
     }
 
-    /// How many frames have been counted.
+    /// Adds what another ledger of the same bed has counted.
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.counts.iter_mut().zip(&other.counts).for_each(|(sum, more)| *sum += more);
+        self.frames += other.frames;
+    }
+
+    /// How many frames have been sprayed.
     pub fn frames(&self) -> u64 {
         self.frames
     }

@@ -10,35 +10,40 @@
 mod bed;
 mod drum;
 mod film;
+mod flux;
+mod gun;
 mod ledger;
 mod raster;
+mod triangle;
 mod view;
 
 pub(super) use bed::{Bed, Canvas};
 pub use film::{PanelIds, film_thickness, film_volume_per_count};
 pub use ledger::{CoatLedger, Exposure, SprayLoss};
 pub(super) use raster::IdRaster;
-pub(super) use view::View;
+pub(super) use view::{Lens, View};
 
+use self::gun::SprayGun;
 use super::{Observer, SprayZone};
 use crate::scene::Spray;
 use crate::shapes::{SurfaceMesh, TabletShape};
 use crate::stepping::Frame;
+use rayon::prelude::*;
 use std::borrow::Borrow;
+use std::path::PathBuf;
 
 /// Counts what the spray hits, frame by frame.
 #[derive(Debug, Clone)]
 pub struct Coater {
     bed: Bed,
-    zone: SprayZone,
-    pixels: [u32; 2],
+    gun: SprayGun,
     canvas: Canvas,
     ledger: CoatLedger,
     exposed: Vec<Exposure>,
 }
 
 /// Why a coater cannot be made.
-#[derive(Debug, thiserror::Error, PartialEq, Eq)]
+#[derive(Debug, thiserror::Error)]
 pub enum CoaterError {
     /// A shape that is to be coated has no panels.
     #[error("shape `{shape}` has no panels to coat")]
@@ -54,6 +59,27 @@ pub enum CoaterError {
         /// Largest number of panels.
         limit: u64,
     },
+    /// A spray that deposits nothing.
+    #[error("the spray's flux is zero everywhere")]
+    NoFlux,
+    /// A measured spray could not be read.
+    #[error("cannot read the spray's table {path}: {source}")]
+    ReadTable {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        source: csv::Error,
+    },
+    /// A measured spray is not what it should be.
+    #[error("{path}:{line}: {what}")]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong.
+        what: &'static str,
+    },
     /// Counts of another bed.
     #[error("the stored counts belong to another bed: {found} entries where this one has {expected}")]
     ForeignLedger {
@@ -65,11 +91,11 @@ pub enum CoaterError {
 }
 
 impl Coater {
-    /// A coater for bodies of shapes `body_shape[body]`, in the order of the frames, sprayed in `zone` and rastered as
-    /// `spray` says. Without a `drum`, whatever passes the tablets is counted as empty.
+    /// A coater for bodies of shapes `body_shape[body]`, in the order of the frames, sprayed as `spray` says with its
+    /// nozzles aimed at `zone`. Without a `drum`, whatever passes the tablets is counted as empty.
     ///
     /// # Errors
-    /// [`CoaterError::NoPanels`], [`CoaterError::TooManyPanels`].
+    /// All but [`CoaterError::ForeignLedger`].
     pub fn new(
         shapes: &[impl Borrow<TabletShape>],
         body_shape: &[usize],
@@ -79,14 +105,8 @@ impl Coater {
     ) -> Result<Self, CoaterError> {
         let bed = Bed::new(shapes, body_shape, drum)?;
         let ledger = CoatLedger::new(bed.ids());
-        Ok(Self {
-            bed,
-            zone,
-            pixels: spray.pixels,
-            canvas: Canvas::new(spray.pixels),
-            ledger,
-            exposed: Vec::new(),
-        })
+        let gun = SprayGun::new(&zone, spray)?;
+        Ok(Self { bed, canvas: Canvas::new(gun.pixels()), gun, ledger, exposed: Vec::new() })
     }
 
     /// The numbers of the panels.
@@ -94,9 +114,9 @@ impl Coater {
         self.bed.ids()
     }
 
-    /// Where it sprays.
-    pub fn zone(&self) -> &SprayZone {
-        &self.zone
+    /// Where each nozzle sprays.
+    pub fn zones(&self) -> &[SprayZone] {
+        self.gun.zones()
     }
 
     /// Counts of the panels of a body over all frames, in the order of its shape's panels.
@@ -127,22 +147,56 @@ impl Coater {
         &self.exposed
     }
 
-    /// Counts that every frame adds up to.
+    /// Takes note of many frames, several at a time, and gives what [`Self::exposed`] would have been after each. Counts
+    /// are whole numbers: they do not depend on the number of threads.
+    pub fn observe_all(&mut self, frames: &[Frame<'_>]) -> Vec<Vec<Exposure>> {
+        let share = frames.len().div_ceil(rayon::current_num_threads()).max(1);
+        let fresh = Self { ledger: CoatLedger::new(self.bed.ids()), ..self.clone() };
+        let parts: Vec<_> = frames
+            .par_chunks(share)
+            .map(|some| {
+                let mut coater = fresh.clone();
+                let exposed = some.iter().map(|frame| {
+                    coater.observe(frame);
+                    coater.exposed.clone()
+                });
+                (exposed.collect::<Vec<_>>(), coater.ledger)
+            })
+            .collect();
+        parts
+            .into_iter()
+            .flat_map(|(exposed, ledger)| {
+                self.ledger.merge(&ledger);
+                exposed
+            })
+            .collect()
+    }
+
+    /// Counts that every frame adds up to while it is sprayed: those of all pixels of all nozzles. Where the flux is not
+    /// even, a pixel counts more than one.
     pub fn counts_per_frame(&self) -> u64 {
-        self.pixels.map(u64::from).iter().product()
+        self.gun.counts_per_frame()
     }
 
     /// Area of the zone that one pixel stands for, m².
     pub fn pixel_area(&self) -> f64 {
-        self.zone.extent.iter().product::<f64>() / self.counts_per_frame() as f64
+        let [width, height] = self.gun.pixels().map(f64::from);
+        let [spanwise, streamwise] = self.gun.zones()[0].extent;
+        spanwise * streamwise / (width * height)
     }
 }
 
 impl Observer for Coater {
     fn observe(&mut self, frame: &Frame<'_>) {
-        let view = View::new(&self.zone, self.pixels, view::jitter(frame.index));
-        self.bed.draw(&view, frame, &mut self.canvas);
-        self.ledger.add(self.canvas.raster.ids(), self.bed.ids(), &mut self.exposed);
+        self.exposed.clear();
+        if !self.gun.is_on(frame.time) {
+            return;
+        }
+        for view in self.gun.views(frame.index) {
+            self.bed.draw(&view, frame, &mut self.canvas);
+            self.ledger.add(self.canvas.raster.rows(), self.gun.weights(), self.bed.ids(), &mut self.exposed);
+        }
+        self.ledger.end_frame(&mut self.exposed);
     }
 }
 

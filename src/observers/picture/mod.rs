@@ -7,11 +7,13 @@ mod paint;
 
 use super::SprayZone;
 use super::coater::{Bed, Canvas, CoaterError, View};
+use crate::scene::Rays;
 use crate::shapes::{Part, SurfaceMesh, TabletShape};
 use crate::stepping::Frame;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Borrow;
+use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
@@ -19,6 +21,8 @@ use std::path::Path;
 const SUPERSAMPLING: u32 = 2;
 /// Thickness of the drum's rim, of its radius.
 const RIM: f64 = 0.035;
+/// From the camera to the front of the drum, of its radius.
+const CAMERA: f64 = 4.0;
 /// Free space around the rim, of the radius.
 const MARGIN: f64 = 0.02;
 
@@ -56,16 +60,15 @@ impl BedPicture {
             .fold((0.0, 0.0), |(radius, front): (f64, f64), v| (radius.max(v.x.hypot(v.y)), front.max(v.z)));
         let side = 2.0 * radius * (1.0 + RIM + MARGIN);
         let camera = SprayZone {
-            center: Vector3::zeros(),
+            center: Vector3::new(0.0, 0.0, front),
             spanwise: Vector3::x(),
             streamwise: -Vector3::y(),
             normal: Vector3::z(),
             extent: [side, side],
-            // Tablets that lean out of the open front are still seen.
-            distance: front + radius,
+            distance: CAMERA * radius,
         };
         Ok(Self {
-            bed: Bed::new(shapes, body_shape, Some(&open_front(drum)))?,
+            bed: Bed::new(shapes, body_shape, Some(&open_front(drum, front)))?,
             canvas: Canvas::new([SUPERSAMPLING * size; 2]),
             camera,
             radius,
@@ -77,12 +80,14 @@ impl BedPicture {
     /// mean or more. The spray `zone` is outlined where one is given.
     pub fn draw(&mut self, frame: &Frame<'_>, film: &[f64], zone: Option<&SprayZone>) -> Image {
         let fine = SUPERSAMPLING * self.size;
-        let view = View::new(&self.camera, [fine; 2], [0.0; 2]);
+        let view = View::new(&self.camera, Rays::Diverging, [fine; 2], [0.0; 2]);
         self.bed.draw(&view, frame, &mut self.canvas);
         let mean = film.iter().sum::<f64>() / film.len().max(1) as f64;
         let scale = if mean > 0.0 { 0.5 / mean } else { 0.0 };
         let scene = paint::Scene {
             raster: &self.canvas.raster,
+            lens: view.lens(),
+            distance: self.camera.distance as f32,
             ids: self.bed.ids(),
             film: film.iter().map(|film| (film * scale) as f32).collect(),
             pixels_per_metre: (f64::from(fine) / self.camera.extent[0]) as f32,
@@ -143,12 +148,31 @@ impl Image {
     }
 }
 
-/// The drum without its front end wall and without the wall, which is seen edge-on: the rim stands for it.
-fn open_front(drum: &SurfaceMesh) -> SurfaceMesh {
-    let kept = |part: &Part| matches!(part, Part::End(0) | Part::Baffle(_));
-    let (triangles, parts) =
-        drum.triangles.iter().zip(&drum.parts).filter(|(_, part)| kept(part)).map(|(t, p)| (*t, *p)).unzip();
-    SurfaceMesh { vertices: drum.vertices.clone(), triangles, parts }
+/// The drum without its front end wall, and with a lid on the front of each baffle, which is hollow.
+fn open_front(drum: &SurfaceMesh, front: f64) -> SurfaceMesh {
+    let of_part =
+        |part: Part| drum.triangles.iter().zip(&drum.parts).filter(move |(_, p)| **p == part).map(|(t, _)| t);
+    let mut open = SurfaceMesh { vertices: drum.vertices.clone(), triangles: Vec::new(), parts: Vec::new() };
+    for part in drum.parts.iter().copied().collect::<BTreeSet<_>>() {
+        if part == Part::End(1) {
+            continue;
+        }
+        open.triangles.extend(of_part(part));
+        if let Part::Baffle(_) = part {
+            // The vertices of a baffle's outline follow each other in the mesh.
+            let at_front = |&vertex: &u32| drum.vertices[vertex as usize].z > front - 1e-9;
+            let outline: Vec<u32> = of_part(part)
+                .flatten()
+                .copied()
+                .filter(at_front)
+                .collect::<BTreeSet<_>>()
+                .into_iter()
+                .collect();
+            open.triangles.extend(outline.windows(2).skip(1).map(|pair| [outline[0], pair[0], pair[1]]));
+        }
+        open.parts.resize(open.triangles.len(), part);
+    }
+    open
 }
 
 #[cfg(test)]

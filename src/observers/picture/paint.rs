@@ -1,6 +1,6 @@
 //! Light and colour of a picture's parts. Colours are linear light, 0 to 1; depths and places in m.
 
-use super::super::coater::{IdRaster, PanelIds, View};
+use super::super::coater::{IdRaster, Lens, PanelIds, View};
 use super::SprayZone;
 use nalgebra::Vector3;
 
@@ -9,7 +9,7 @@ type Rgb = [f32; 3];
 /// Film colours from none to twice the mean, of even steps in lightness: a white core to a blue coat. sRGB.
 const FILM: [u32; 6] = [0x00f6_f1e6, 0x00c9_e4e0, 0x008c_c9d8, 0x004f_a3c9, 0x0028_74ab, 0x0017_477f];
 const BACK: u32 = 0x0046_4d57;
-const BAFFLE: u32 = 0x00a9_b0b8;
+const STEEL: u32 = 0x00a9_b0b8;
 const RIM: u32 = 0x008d_959e;
 const SPRAY: u32 = 0x00ff_9d3c;
 /// Towards the lamp: above, left, in front. Screen axes (right, down, away).
@@ -21,9 +21,13 @@ const SHADE_SAMPLES: usize = 20;
 /// What is painted.
 pub(super) struct Scene<'a> {
     pub(super) raster: &'a IdRaster,
+    pub(super) lens: &'a Lens,
+    /// From the camera to the front of the drum, m.
+    pub(super) distance: f32,
     pub(super) ids: &'a PanelIds,
     /// Film of each body, 0 to 1.
     pub(super) film: Vec<f32>,
+    /// At the front of the drum.
     pub(super) pixels_per_metre: f32,
     /// Width and height of the raster.
     pub(super) side: usize,
@@ -41,8 +45,8 @@ pub(super) struct Spray {
 impl Spray {
     pub(super) fn new(zone: &SprayZone, view: &View) -> Self {
         let screen = |point: Vector3<f64>| {
-            let seen = view.project(&point);
-            [seen.x as f32, seen.y as f32]
+            let [x, y, _] = view.screen(&point);
+            [x, y]
         };
         let half = zone.streamwise * (zone.extent[1] / 2.0);
         Self {
@@ -64,7 +68,7 @@ impl Scene<'_> {
         let mut light = if from_axis > self.radius {
             self.rim_light(right, down, from_axis)
         } else {
-            self.surface_light(x, y, from_axis)
+            self.surface_light(x, y)
         };
         if let Some(spray) = &self.spray {
             light = spray.over(light, [x as f32, y as f32], self.pixels_per_metre);
@@ -80,44 +84,52 @@ impl Scene<'_> {
         lit(decode(RIM), [right * out, down * out, -towards], 0.25, 1.0)
     }
 
-    fn surface_light(&self, x: usize, y: usize, from_axis: f32) -> Rgb {
-        let at = y * self.side + x;
-        let id = self.raster.ids()[at];
+    fn surface_light(&self, x: usize, y: usize) -> Rgb {
+        let (id, _) = self.raster.at(x, y);
         let normal = self.normal(x, y);
         let open = self.openness(x, y);
         match self.ids.body(id) {
             Some(body) => lit(film_color(self.film[body]), normal, 0.35, open),
-            None if id == self.ids.panels() + 2 => lit(decode(BAFFLE), normal, 0.2, open),
-            None => {
-                let edge = smooth((self.radius - from_axis) / (0.12 * self.radius));
-                scaled(decode(BACK), (0.55 + 0.45 * edge) * open)
-            }
+            None => match id - self.ids.panels() {
+                PanelIds::WALL => lit(decode(STEEL), normal, 0.1, open),
+                PanelIds::END => lit(decode(BACK), normal, 0.0, open),
+                PanelIds::BAFFLE => lit(decode(STEEL), normal, 0.2, open),
+                _ => decode(BACK),
+            },
         }
     }
 
-    /// Unit normal of the surface, from depths next to the point: the flatter side where the surface breaks off.
+    /// Where the surface seen at a point of the raster is: right, down and away from the camera, m. Infinitely far away
+    /// where nothing is.
+    fn point(&self, x: usize, y: usize) -> [f32; 3] {
+        let away = self.lens.metres(self.raster.at(x, y).1);
+        let middle = self.side as f32 / 2.0 - 0.5;
+        let across = |v: usize| (v as f32 - middle) / self.pixels_per_metre * away / self.distance;
+        [across(x), across(y), away]
+    }
+
+    /// Unit normal of the surface, from points next to the point: the nearer one where the surface breaks off.
     fn normal(&self, x: usize, y: usize) -> [f32; 3] {
-        let depths = self.raster.depths();
-        let here = depths[y * self.side + x];
-        let slope = |before: Option<usize>, after: Option<usize>| {
-            let rise = |at: Option<usize>, sign: f32| {
-                at.map_or(f32::INFINITY, |at| (depths[at] - here) * sign * self.pixels_per_metre)
-            };
-            let (a, b) = (rise(before, -1.0), rise(after, 1.0));
-            let flatter = if a.abs() < b.abs() { a } else { b };
-            if flatter.is_finite() { flatter } else { 0.0 }
-        };
-        let at = y * self.side + x;
+        let here = self.point(x, y);
         let last = self.side - 1;
-        let across = slope((x > 0).then(|| at - 1), (x < last).then(|| at + 1));
-        let down = slope((y > 0).then(|| at - self.side), (y < last).then(|| at + self.side));
-        unit([across, down, -1.0])
+        let along = |before: [usize; 2], after: [usize; 2]| {
+            let [back, forth] = [before, after].map(|[x, y]| self.point(x, y));
+            let [back, forth] = [minus(here, back), minus(forth, here)];
+            if (back[2].abs() < forth[2].abs() && dot(back, back) > 0.0) || dot(forth, forth) == 0.0 {
+                back
+            } else {
+                forth
+            }
+        };
+        let across = along([x.saturating_sub(1), y], [(x + 1).min(last), y]);
+        let down = along([x, y.saturating_sub(1)], [x, (y + 1).min(last)]);
+        unit(cross(down, across))
     }
 
     /// Share of the light from all around that reaches the point past what stands before it.
     fn openness(&self, x: usize, y: usize) -> f32 {
-        let here = self.raster.depths()[y * self.side + x];
-        let reach = SHADE_REACH * self.pixels_per_metre;
+        let here = self.point(x, y)[2];
+        let reach = SHADE_REACH * self.pixels_per_metre * self.distance / here;
         let mut shade = 0.0;
         for k in 0..SHADE_SAMPLES {
             // Points of a sunflower: evenly over the disc, denser towards its middle.
@@ -126,7 +138,7 @@ impl Scene<'_> {
             let seen = |v: usize, step: f32| {
                 (v as f32 + step * along * reach).clamp(0.0, self.side as f32 - 1.0) as usize
             };
-            let before = here - self.raster.depths()[seen(y, sin) * self.side + seen(x, cos)];
+            let before = here - self.point(seen(x, cos), seen(y, sin))[2];
             if before.is_finite() {
                 let steep = (before / (along * SHADE_REACH)).clamp(0.0, 1.5) / 1.5;
                 shade += steep * smooth(2.0 - before / (8.0 * SHADE_REACH));
@@ -203,10 +215,6 @@ fn mixed(a: Rgb, b: Rgb, share: f32) -> Rgb {
     std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share)
 }
 
-fn scaled(color: Rgb, by: f32) -> Rgb {
-    color.map(|c| c * by)
-}
-
 fn smooth(t: f32) -> f32 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
@@ -214,6 +222,14 @@ fn smooth(t: f32) -> f32 {
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn cross([a, b, c]: [f32; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
 fn unit(v: [f32; 3]) -> [f32; 3] {

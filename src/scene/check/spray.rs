@@ -2,6 +2,7 @@
 
 use super::super::model::{Aim, Deposit, Spray};
 use super::super::path::KeyPath;
+use super::super::pattern::Pattern;
 use super::super::spec::{AimSpec, DepositSpec, SpraySpec};
 use super::{Allowed, Checker};
 use crate::units::{Number, Whole};
@@ -46,6 +47,7 @@ pub(super) fn spray(c: &mut Checker<'_>, spec: SpraySpec) -> Spray {
         aim,
         pixels,
         deposit: self::deposit(c, &at.field("deposit"), deposit),
+        pattern: Pattern::default(),
     }
 }
 

@@ -1,0 +1,94 @@
+//! Poses on disk: recorded while a bed turns, read back to be coated again with another spray, or taken from another
+//! program's table.
+//!
+//! A recording is a header and one block per frame, each with its checksum, so that a recording cut short by a crash
+//! is good up to its last whole frame and can be gone on with. Poses are kept exactly (56 bytes) or, for most uses well
+//! enough, in 9 bytes ([`Packing`]). Velocities are not kept.
+
+mod block;
+mod packing;
+mod reader;
+mod recorder;
+mod table;
+
+pub use packing::Packing;
+pub use reader::PoseReader;
+pub use recorder::Recorder;
+pub use table::read_pose_table;
+
+use crate::stepping::{BodyState, Frame};
+use std::io;
+use std::path::PathBuf;
+
+/// A frame that was stored. Its bodies are at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredFrame {
+    /// Number of the frame.
+    pub index: u64,
+    /// Time, s.
+    pub time: f64,
+    /// Angle of the drum, rad.
+    pub drum_angle: f64,
+    /// The bodies.
+    pub bodies: Vec<BodyState>,
+}
+
+impl StoredFrame {
+    /// The frame as observers take it.
+    pub fn as_frame(&self) -> Frame<'_> {
+        Frame {
+            index: self.index,
+            time: self.time,
+            bodies: &self.bodies,
+            drum_angle: self.drum_angle,
+            drum_torque: 0.0,
+        }
+    }
+}
+
+/// Why poses cannot be stored or read.
+#[derive(Debug, thiserror::Error)]
+pub enum PoseError {
+    /// The file system refuses.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is something else.
+    #[error("{path} is not a recording of poses")]
+    NotPoses {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A recording that is to be gone on with is of another kind or of other bodies.
+    #[error("{path} holds {found} bodies in another packing or number than the {expected} to be recorded")]
+    Other {
+        /// The file.
+        path: PathBuf,
+        /// Bodies in the file.
+        found: usize,
+        /// Bodies in the run.
+        expected: usize,
+    },
+    /// A table cannot be read.
+    #[error("{path}: {source}")]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said; it names the line.
+        source: csv::Error,
+    },
+    /// A row of a table is not what it should be.
+    #[error("{path}:{line}: {what}")]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong.
+        what: &'static str,
+    },
+}
