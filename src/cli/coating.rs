@@ -220,8 +220,7 @@ impl CoatedShape {
             self.blocks.iter().map(|gain| CoatMap::new(&self.panels.areas, gain, volume_per_count)).collect();
         let duration = self.blocks.len() as f64 * block_time;
         // One tablet, or no whole block yet, has no estimate.
-        let limit =
-            maps.and_then(|maps| AsymptoteEstimate::from_blocks(&maps, duration, &Bootstrap::default())).ok();
+        let limit = maps.and_then(|maps| AsymptoteEstimate::from_blocks(&maps, duration)).ok();
         report::Coating {
             cov_intra: Some(batch.moments),
             cov_inter: Some(batch.inter),

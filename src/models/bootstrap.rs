@@ -1,6 +1,6 @@
 //! Resampling with a seed.
 
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
@@ -42,28 +42,13 @@ impl Bootstrap {
         (0..self.replicates).into_par_iter().map(replicate).collect()
     }
 
-    /// The interval about `estimate` with the spread of `values`, moved so that their mean lies on the estimate.
-    ///
-    /// Moving is right for estimates that are unbiased by construction: a resampled set holds some units twice, which
-    /// biases quadratic estimates (Efron and Tibshirani 1993, An Introduction to the Bootstrap, ch. 10).
-    pub(super) fn centred_interval(&self, estimate: f64, mut values: Vec<f64>) -> Interval {
+    /// The interval that holds the middle share of `values` (percentile interval: Efron and Tibshirani 1993, An Introduction to
+    /// the Bootstrap, ch. 13).
+    pub(super) fn interval(&self, mut values: Vec<f64>) -> Interval {
         values.sort_by(f64::total_cmp);
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
         let tail = (1.0 - self.confidence) / 2.0;
-        Interval {
-            low: estimate + quantile(&values, tail) - mean,
-            high: estimate + quantile(&values, 1.0 - tail) - mean,
-        }
+        Interval { low: quantile(&values, tail), high: quantile(&values, 1.0 - tail) }
     }
-}
-
-/// How often each of `n` units is drawn in `n` draws with replacement.
-pub(super) fn draw_counts(n: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
-    let mut counts = vec![0.0; n];
-    for _ in 0..n {
-        counts[rng.random_range(0..n)] += 1.0;
-    }
-    counts
 }
 
 /// Quantile of sorted values (not empty) by linear interpolation between order statistics (Hyndman and Fan 1996, Am. Stat.
@@ -78,6 +63,7 @@ pub fn quantile(sorted: &[f64], q: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::RngExt;
 
     #[test]
     fn quantiles_interpolate() {
@@ -90,9 +76,9 @@ mod tests {
     fn the_spread_of_a_mean_is_its_standard_error() {
         let data: Vec<f64> = (0..400).map(f64::from).collect(); // sd 115.5, error of the mean 5.77
         let bootstrap = Bootstrap { replicates: 2000, seed: 5, confidence: 0.95 };
-        let values = bootstrap
-            .values(|rng| draw_counts(400, rng).iter().zip(&data).map(|(w, x)| w * x).sum::<f64>() / 400.0);
-        let interval = bootstrap.centred_interval(199.5, values);
+        let mean =
+            |rng: &mut ChaCha8Rng| (0..400).map(|_| data[rng.random_range(0..400)]).sum::<f64>() / 400.0;
+        let interval = bootstrap.interval(bootstrap.values(mean));
         assert!((interval.high - interval.low - 2.0 * 1.96 * 5.77).abs() < 1.5, "{interval:?}");
     }
 }

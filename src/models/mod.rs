@@ -9,6 +9,7 @@
 //! experiments", Chem. Eng. Sci. 131, 197, doi 10.1016/j.ces.2015.03.013; its equations are cited by number.
 
 mod asymptote;
+mod asymptote_estimate;
 mod averaging;
 mod bootstrap;
 mod coat_map;
@@ -26,7 +27,8 @@ mod tablet_surface;
 pub mod thz;
 mod trial_process;
 
-pub use asymptote::{Asymptote, AsymptoteEstimate};
+pub use asymptote::Asymptote;
+pub use asymptote_estimate::AsymptoteEstimate;
 pub use averaging::{BatchStatistics, Identities, TabletMoments};
 pub use bootstrap::{Bootstrap, Interval, quantile};
 pub use coat_map::{Amount, CoatMap};

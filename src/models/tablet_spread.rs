@@ -1,7 +1,6 @@
 //! How tablets differ from each other, over time and in a sample.
 
 use super::averaging::sample_sd;
-use super::bootstrap::quantile;
 use super::{Bootstrap, Interval, ModelError, PowerLaw};
 use rand::RngExt;
 
@@ -37,13 +36,11 @@ impl SpreadLaw {
             PowerLaw::fit(rows.iter().filter_map(|(time, values)| Some((*time, sample_sd(&chosen(values))?))))
         };
         let law = spread(&<[f64]>::to_vec)?;
-        let mut exponents = bootstrap.values(|rng| {
+        let exponents = bootstrap.values(|rng| {
             let drawn: Vec<usize> = (0..tablets).map(|_| rng.random_range(0..tablets)).collect();
             spread(&|values| drawn.iter().map(|&i| values[i]).collect()).map_or(law.exponent, |l| l.exponent)
         });
-        exponents.sort_by(f64::total_cmp);
-        let tail = (1.0 - bootstrap.confidence) / 2.0;
-        let exponent = Interval { low: quantile(&exponents, tail), high: quantile(&exponents, 1.0 - tail) };
+        let exponent = bootstrap.interval(exponents);
         Ok(Self { law, exponent })
     }
 }

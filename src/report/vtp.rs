@@ -48,7 +48,7 @@ pub fn write(maps: &[ThicknessMap]) -> String {
     )
 }
 
-/// Reads the maps of a file written by [`write`].
+/// Reads the maps of a file written by [`write()`].
 ///
 /// # Errors
 /// [`VtpError`] names the array that is missing or does not fit.

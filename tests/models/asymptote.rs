@@ -1,8 +1,6 @@
 //! The estimate of the limit: unbiased from a short run, with an interval that covers the truth as often as it says.
 
-use pancoat::models::{
-    Asymptote, AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, RepresentativeTablet,
-};
+use pancoat::models::{Asymptote, AsymptoteEstimate, BatchStatistics, CoatMap, RepresentativeTablet};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -55,21 +53,19 @@ impl MadeUpRun {
         (0..blocks).map(|_| block(&mut rng)).collect()
     }
 
-    fn estimate(&self, gains: &[Vec<f64>], bootstrap: &Bootstrap) -> AsymptoteEstimate {
+    fn estimate(&self, gains: &[Vec<f64>]) -> AsymptoteEstimate {
         let maps: Vec<_> =
             gains.iter().map(|g| CoatMap::new(&self.areas, g, 1.0).expect("whole tablets")).collect();
-        AsymptoteEstimate::from_blocks(&maps, gains.len() as f64, bootstrap).expect("coated tablets")
+        AsymptoteEstimate::from_blocks(&maps, gains.len() as f64).expect("coated tablets")
     }
 }
-
-const FEW: Bootstrap = Bootstrap { replicates: 200, seed: 3, confidence: 0.95 };
 
 /// Share of 200 made-up runs whose interval holds the truth, and the mean of the estimates over the truth.
 fn coverage(run: &MadeUpRun, blocks: usize, passes: u32) -> (f64, f64) {
     let truth = run.limit();
     let (mut covered, mut squares) = (0, 0.0);
     for seed in 0..200 {
-        let estimate = run.estimate(&run.play(blocks, passes, seed), &FEW);
+        let estimate = run.estimate(&run.play(blocks, passes, seed));
         covered += u32::from((estimate.interval.low..=estimate.interval.high).contains(&truth));
         squares += estimate.asymptote.cov_squared / 200.0;
     }
@@ -101,8 +97,7 @@ fn blocks_tell_a_shared_fluctuation_from_a_limit() {
     for seed in 0..40 {
         let gains = run.play(8, 4, seed);
         let total: Vec<f64> = (0..gains[0].len()).map(|k| gains.iter().map(|g| g[k]).sum()).collect();
-        let few = Bootstrap { replicates: 2, ..FEW };
-        one_block += run.estimate(std::slice::from_ref(&total), &few).asymptote.cov_squared / 40.0;
+        one_block += run.estimate(std::slice::from_ref(&total)).asymptote.cov_squared / 40.0;
         average += BatchStatistics::of(&CoatMap::new(&run.areas, &total, 1.0).unwrap())
             .unwrap()
             .average_tablet
@@ -125,8 +120,7 @@ fn a_tenth_of_the_run_foretells_the_rest() {
     let (mut squares, mut average, mut foretold) = (0.0, 0.0, 0.0);
     for seed in 0..200 {
         let gains = run.play(20, 4, 1000 + seed);
-        let few = Bootstrap { replicates: 2, ..FEW };
-        let Asymptote { cov_squared, noise_time } = run.estimate(&gains[..2], &few).asymptote;
+        let Asymptote { cov_squared, noise_time } = run.estimate(&gains[..2]).asymptote;
         squares += cov_squared / 200.0;
         let sum = |n: usize| {
             (0..gains[0].len()).map(|k| gains[..n].iter().map(|g| g[k]).sum::<f64>()).collect::<Vec<_>>()
@@ -145,18 +139,18 @@ fn a_uniform_truth_gives_an_interval_from_zero() {
     let run = MadeUpRun::new(0.0, 0.0);
     let mut from_zero = 0;
     for seed in 0..100 {
-        from_zero += usize::from(!run.estimate(&run.play(3, 4, seed), &FEW).is_above_zero());
+        from_zero += usize::from(!run.estimate(&run.play(3, 4, seed)).is_above_zero());
     }
     assert!(from_zero >= 90, "{from_zero}");
 }
 
 #[test]
-fn the_same_seed_gives_the_same_bits_on_any_number_of_threads() {
+fn the_same_data_give_the_same_bits_on_any_number_of_threads() {
     let run = MadeUpRun::new(0.3, 0.2);
     let gains = run.play(4, 3, 1);
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run.estimate(&gains, &FEW))
+        pool.install(|| run.estimate(&gains))
     };
     assert_eq!(on(1), on(3));
 }

@@ -1,6 +1,6 @@
 //! Batch averages and laws in time.
 
-use pancoat::models::{Asymptote, AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, PowerLaw};
+use pancoat::models::{Asymptote, AsymptoteEstimate, BatchStatistics, CoatMap, PowerLaw};
 use pancoat::models::{SeriesRow, TrialProcess};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -61,8 +61,7 @@ fn random_directions_average_out_as_one_over_the_root_of_their_number() {
         assert!((batch.moments / (5.0_f64 / 3.0).sqrt() - 1.0).abs() < 0.01);
         squares += batch.average_tablet.powi(2) / f64::from(trials);
         if trial == 0 {
-            let few = Bootstrap { replicates: 200, ..Bootstrap::default() };
-            let estimate = AsymptoteEstimate::from_blocks(&[map], 1.0, &few).unwrap();
+            let estimate = AsymptoteEstimate::from_blocks(&[map], 1.0).unwrap();
             assert!(!estimate.is_above_zero(), "{estimate:?}");
         }
     }
