@@ -16,12 +16,14 @@ fn bed(threads: usize) -> String {
     ]
     .map(String::from);
     let text = include_str!("../../scenes/round.ron");
-    let scene = Scene::parse(text, "round.ron", std::path::Path::new("."), &overrides).unwrap();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let scene = Scene::parse(text, "round.ron", std::path::Path::new("."), &overrides)
+        .expect("the scene of the test runs");
+    let pool =
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("the scene of the test runs");
     pool.install(|| {
-        let mut simulation = Simulation::new(&scene).unwrap();
-        simulation.fill(&mut |_| true).unwrap();
-        simulation.settle(&mut |_| true).unwrap();
+        let mut simulation = Simulation::new(&scene).expect("the scene of the test runs");
+        simulation.fill(&mut |_| true).expect("the scene of the test runs");
+        simulation.settle(&mut |_| true).expect("the scene of the test runs");
         assert_eq!(simulation.body_shapes().len(), 40);
         simulation.state_hash()
     })
