@@ -16,8 +16,8 @@
 //! | [`world`] | the only owner of Rapier's sets: bodies, colliders, drum drive, near pairs, filling | `scene`, `shapes` |
 //! | [`contact`] | Hertz-Mindlin, sphere lists per body pair, contact history, forces | `scene`, `shapes`, `world` |
 //! | [`stepping`] | the simulation: integrator, time step, guards, the loop, the frame | all above |
-//! | [`observers`] | what looks at frames: coater, bed statistics, picture | all above |
 //! | [`models`] | coating statistics and asymptotes from stored data | nothing |
+//! | [`observers`] | what looks at frames: coater, bed statistics, picture | `scene`, `shapes`, `stepping`, `models` |
 //! | [`report`] | the run record and the page made of it | `models` |
 //! | [`cli`] | arguments, progress, exit codes | all |
 //!

@@ -1,7 +1,7 @@
 //! The run record, the folder it lies in, and the report page made of both.
 //!
 //! In: the files of a run folder ([`ReportData::read`]) or plain values. Out: those files ([`RunDir`]), and one HTML file
-//! ([`page`]). Nothing here computes physics; a report can be made again from an old run.
+//! ([`page()`]). Nothing here computes physics; a report can be made again from an old run.
 
 mod base64;
 mod charts;
