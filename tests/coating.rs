@@ -8,8 +8,8 @@ mod solids;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pancoat::observers::{
-    Coater, Observer, Packing, PanelIds, PoseReader, Recorder, SprayZone, StoredFrame, film_thickness,
-    read_pose_table,
+    Backend, Coater, Observer, Packing, PanelIds, PoseReader, Recorder, SprayZone, StoredFrame,
+    film_thickness, read_pose_table,
 };
 use pancoat::scene::{Aim, Cycle, Deposit, Flux, Footprint, Pattern, Rays, Spray, Tilt};
 use pancoat::shapes::{Part, SurfaceMesh, TabletShape};
@@ -514,4 +514,75 @@ fn stored_poses_are_coated_like_those_of_the_run() {
     // 9 bytes a pose, and little for each frame and the file.
     let bytes = std::fs::metadata(&compact).unwrap().len();
     assert!(bytes < 9 * 6 * 60 + 6 * 48 + 256, "{bytes}");
+}
+
+/// The backend's note tells a build without graphics cards from one that found none.
+#[test]
+fn what_is_not_to_be_had_is_noted_and_the_processor_draws() {
+    let shapes = [icosphere(0.004, 2)];
+    let mut coater = coater(&shapes, &[0], [64, 32], None);
+    assert_eq!(coater.backend(), "cpu");
+    coater.use_backend(Backend::Auto);
+    let note = coater.backend().to_owned();
+    assert!(note.starts_with("gpu: ") || note.starts_with("cpu: "), "{note}");
+    assert_eq!(
+        note == "cpu: this program was built without support for graphics cards",
+        cfg!(not(feature = "gpu"))
+    );
+    spray(&mut coater, 0..1, &[body(0.0, 0.0, 0.0, UnitQuaternion::identity())], 0.0);
+    assert_eq!(coater.ledger().total(), 64 * 32);
+}
+
+/// Pictures of a graphics card, here of a program that acts as one. Where there is none the test says so and passes,
+/// unless `REQUIRE_GPU` is set.
+#[cfg(feature = "gpu")]
+mod graphics_card {
+    use super::*;
+
+    #[test]
+    fn both_see_the_same() {
+        let shapes = [round_tablet(0.0159, 0.00382, 0.00141, 24, 5), icosphere(0.004, 2)];
+        let body_shape: Vec<usize> = (0..120).map(|k| k % 2).collect();
+        let drum = tube(0.06, 0.06);
+        for rays in [Rays::Parallel, Rays::Diverging] {
+            let pattern = Pattern { rays, ..Pattern::default() };
+            let spray_gun = spray_gun([500, 250], pattern);
+            let [mut cpu, mut gpu] =
+                [(); 2].map(|()| patterned(&shapes, &body_shape, &spray_gun, Some(&drum)));
+            gpu.use_backend(Backend::GpuSoftware);
+            if !gpu.backend().starts_with("gpu: ") {
+                assert!(std::env::var_os("REQUIRE_GPU").is_none(), "{}", gpu.backend());
+                eprintln!("not tested: {}", gpu.backend());
+                return;
+            }
+            for index in 0..8 {
+                let bodies = heap(120, index);
+                spray(&mut cpu, index..index + 1, &bodies, 0.4 * index as f64);
+                spray(&mut gpu, index..index + 1, &bodies, 0.4 * index as f64);
+            }
+            assert!(gpu.backend().starts_with("gpu: "), "{}", gpu.backend());
+            assert_eq!(gpu.ledger().total(), cpu.ledger().total());
+            let (a, b) = (cpu.ledger().loss(), gpu.ledger().loss());
+            assert!(a.wall > 0 && a.empty > 0 && a.baffles > 0, "{a:?}");
+            let mut moved = a.wall.abs_diff(b.wall) + a.ends.abs_diff(b.ends);
+            moved += a.baffles.abs_diff(b.baffles) + a.empty.abs_diff(b.empty);
+            for body in 0..120 {
+                moved +=
+                    cpu.counts(body).iter().zip(gpu.counts(body)).map(|(a, b)| a.abs_diff(*b)).sum::<u64>();
+            }
+            assert!(moved as f64 <= 2e-4 * cpu.ledger().total() as f64, "{rays:?}: {moved}");
+        }
+    }
+
+    /// Without a driver there is no card, and no panic.
+    #[test]
+    fn no_driver_is_no_harm() {
+        let output = std::process::Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "what_is_not_to_be_had_is_noted_and_the_processor_draws"])
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    }
 }

@@ -10,7 +10,8 @@ mod zone;
 
 pub use aim::{AimError, BedSurface};
 pub use coater::{
-    CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness, film_volume_per_count,
+    Backend, CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness,
+    film_volume_per_count,
 };
 pub use picture::{BedPicture, Image};
 pub use poses::{Packing, PoseError, PoseReader, Recorder, StoredFrame, read_pose_table};

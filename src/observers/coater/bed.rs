@@ -3,11 +3,11 @@
 use super::CoaterError;
 use super::drum::DrumMesh;
 use super::film::PanelIds;
-use super::raster::{Bounds, IdRaster};
-use super::triangle::{LANES, ScreenVertex, Sides};
+use super::raster::IdRaster;
+use super::triangle::{Bounds, LANES, ScreenVertex, Sides};
 use super::view::{Lens, Placement, View};
 use crate::shapes::{Panels, SurfaceMesh, TabletShape};
-use crate::stepping::{BodyState, Frame};
+use crate::stepping::Frame;
 use nalgebra::Vector3;
 use std::borrow::Borrow;
 use wide::f32x4;
@@ -18,7 +18,7 @@ pub(in crate::observers) struct Bed {
     solids: Vec<Solid>,
     body_shape: Vec<usize>,
     ids: PanelIds,
-    drum: Option<DrumMesh>,
+    drum: DrumMesh,
 }
 
 /// Where a bed is drawn; one per thread.
@@ -43,10 +43,10 @@ struct Solid {
 
 /// A body that may be seen.
 #[derive(Debug, Clone, Copy)]
-struct Candidate {
-    body: usize,
+pub(super) struct Candidate {
+    pub(super) body: usize,
     nearest: f32,
-    placement: Placement,
+    pub(super) placement: Placement,
     area: Bounds,
 }
 
@@ -69,7 +69,7 @@ impl Bed {
             })
             .collect::<Result<Vec<_>, _>>()?;
         let ids = PanelIds::new(body_shape.iter().map(|&shape| solids[shape].triangles.len()))?;
-        Ok(Self { solids, body_shape: body_shape.to_vec(), ids, drum: drum.map(DrumMesh::new) })
+        Ok(Self { solids, body_shape: body_shape.to_vec(), ids, drum: DrumMesh::new(drum) })
     }
 
     pub(in crate::observers) fn ids(&self) -> &PanelIds {
@@ -82,19 +82,9 @@ impl Bed {
     /// whole. A pinhole leaves out what comes closer to it than a twentieth of its distance.
     pub(in crate::observers) fn draw(&self, view: &View, frame: &Frame<'_>, canvas: &mut Canvas) {
         canvas.raster.clear(self.ids.panels() + PanelIds::EMPTY);
-        if let Some(drum) = &self.drum {
-            drum.draw(view, frame.drum_angle, self.ids.panels(), &mut canvas.raster);
-        }
+        self.drum.draw(view, frame.drum_angle, self.ids.panels(), &mut canvas.raster);
         let mut candidates = std::mem::take(&mut canvas.candidates);
-        candidates.clear();
-        candidates.extend(
-            frame
-                .bodies
-                .iter()
-                .enumerate()
-                .filter_map(|(body, state)| self.candidate(view, body, state, &canvas.raster)),
-        );
-        candidates.sort_unstable_by(|a, b| a.nearest.total_cmp(&b.nearest).then(a.body.cmp(&b.body)));
+        self.candidates(view, frame, canvas.raster.last(), &mut candidates);
         for candidate in &candidates {
             if !canvas.raster.hides(&candidate.area, candidate.nearest) {
                 self.draw_body(candidate.body, view.lens(), &candidate.placement, canvas);
@@ -103,13 +93,24 @@ impl Bed {
         canvas.candidates = candidates;
     }
 
-    fn candidate(&self, view: &View, body: usize, state: &BodyState, raster: &IdRaster) -> Option<Candidate> {
-        let placement = view.place(state);
-        let solid = &self.solids[self.body_shape[body]];
-        let (middle, half) = placement.box_about(solid.middle, solid.half);
-        let bounds = view.lens().screen_box(middle, half)?;
-        let area = raster.pixels_between(bounds.min, bounds.max)?;
-        Some(Candidate { body, nearest: bounds.nearest, placement, area })
+    /// Replaces `candidates` by the bodies whose boxes touch a screen up to the `last` column and row, nearest first.
+    pub(super) fn candidates(
+        &self,
+        view: &View,
+        frame: &Frame<'_>,
+        last: [i32; 2],
+        candidates: &mut Vec<Candidate>,
+    ) {
+        candidates.clear();
+        candidates.extend(frame.bodies.iter().enumerate().filter_map(|(body, state)| {
+            let placement = view.place(state);
+            let solid = &self.solids[self.body_shape[body]];
+            let (middle, half) = placement.box_about(solid.middle, solid.half);
+            let bounds = view.lens().screen_box(middle, half)?;
+            let area = Bounds::between(bounds.min, bounds.max, last)?;
+            Some(Candidate { body, nearest: bounds.nearest, placement, area })
+        }));
+        candidates.sort_unstable_by(|a, b| a.nearest.total_cmp(&b.nearest).then(a.body.cmp(&b.body)));
     }
 
     /// Draws a body unless it turns out, vertex by vertex, to be hidden after all.
@@ -122,7 +123,7 @@ impl Bed {
             bounds.include(seen);
             canvas.vertices.extend(ScreenVertex::snap(seen));
         }
-        let Some(area) = bounds.pixels(&canvas.raster) else { return };
+        let Some(area) = bounds.pixels(canvas.raster.last()) else { return };
         if canvas.raster.hides(&area, bounds.nearest()) {
             return;
         }
@@ -154,10 +155,42 @@ impl ScreenBounds {
         self.min[2].to_array().into_iter().fold(f32::INFINITY, f32::min)
     }
 
-    fn pixels(&self, raster: &IdRaster) -> Option<Bounds> {
+    fn pixels(&self, last: [i32; 2]) -> Option<Bounds> {
         let [left, top, _] = self.min.map(|v| v.to_array().into_iter().fold(f32::INFINITY, f32::min));
         let [right, bottom, _] = self.max.map(|v| v.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max));
-        raster.pixels_between([left, top], [right, bottom])
+        Bounds::between([left, top], [right, bottom], last)
+    }
+}
+
+/// What a graphics card is handed of a bed.
+#[cfg(feature = "gpu")]
+impl Bed {
+    pub(super) fn shape_of(&self, body: usize) -> usize {
+        self.body_shape[body]
+    }
+
+    pub(super) fn shapes(&self) -> usize {
+        self.solids.len()
+    }
+
+    /// Vertices (m, the last one some times over) and triangles of a shape.
+    pub(super) fn shape(&self, shape: usize) -> (impl Iterator<Item = [f32; 3]>, &[[u32; 3]]) {
+        let solid = &self.solids[shape];
+        let points = solid.vertices.iter().flat_map(|some| {
+            let [x, y, z] = some.map(f32x4::to_array);
+            (0..LANES).map(move |lane| [x[lane], y[lane], z[lane]])
+        });
+        (points, &solid.triangles)
+    }
+
+    /// Vertices of the drum, m.
+    pub(super) fn drum_points(&self) -> impl Iterator<Item = [f32; 3]> {
+        self.drum.vertices().iter().map(|vertex| vertex.data.0[0].map(|x| x as f32))
+    }
+
+    /// Triangles of the drum by what they belong to: its place among the numbers that follow those of the panels.
+    pub(super) fn drum_parts(&self) -> &[(u32, Vec<[u32; 3]>)] {
+        self.drum.parts()
     }
 }
 
@@ -198,6 +231,7 @@ mod tests {
     use crate::observers::coater::tests::{cube, tumbled};
     use crate::observers::coater::view::jitter;
     use crate::scene::Rays;
+    use crate::stepping::BodyState;
 
     fn zone() -> SprayZone {
         SprayZone {

@@ -7,41 +7,63 @@ use super::view::{View, lanes};
 use crate::shapes::{Part, SurfaceMesh};
 use nalgebra::{Rotation3, Vector3};
 
-/// The drum's surface, seen from both sides.
+/// The drum's surface, seen from both sides; empty where there is no drum.
 #[derive(Debug, Clone)]
-pub(super) struct DrumMesh(SurfaceMesh);
-
-/// Number of a part among the numbers that follow those of the panels.
-fn number(part: Part) -> u32 {
-    match part {
-        Part::Wall => PanelIds::WALL,
-        Part::End(_) => PanelIds::END,
-        Part::Baffle(_) => PanelIds::BAFFLE,
-    }
+pub(super) struct DrumMesh {
+    vertices: Vec<Vector3<f64>>,
+    /// Triangles by what they belong to: its place among the numbers that follow those of the panels.
+    parts: Vec<(u32, Vec<[u32; 3]>)>,
 }
 
 impl DrumMesh {
-    pub(super) fn new(mesh: &SurfaceMesh) -> Self {
-        Self(mesh.clone())
+    pub(super) fn new(mesh: Option<&SurfaceMesh>) -> Self {
+        let Some(mesh) = mesh else { return Self { vertices: Vec::new(), parts: Vec::new() } };
+        let of = |number: u32| {
+            let belongs = |part: &Part| match part {
+                Part::Wall => number == PanelIds::WALL,
+                Part::End(_) => number == PanelIds::END,
+                Part::Baffle(_) => number == PanelIds::BAFFLE,
+            };
+            let triangles = mesh.triangles.iter().zip(&mesh.parts).filter(|(_, part)| belongs(part));
+            (number, triangles.map(|(triangle, _)| *triangle).collect())
+        };
+        Self {
+            vertices: mesh.vertices.clone(),
+            parts: [PanelIds::WALL, PanelIds::END, PanelIds::BAFFLE].map(of).to_vec(),
+        }
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(super) fn vertices(&self) -> &[Vector3<f64>] {
+        &self.vertices
+    }
+
+    #[cfg(feature = "gpu")]
+    pub(super) fn parts(&self) -> &[(u32, Vec<[u32; 3]>)] {
+        &self.parts
     }
 
     /// Draws the drum turned by `angle` (rad about +z), cut off at the near plane, under numbers from `first_id` on.
     pub(super) fn draw(&self, view: &View, angle: f64, first_id: u32, raster: &mut IdRaster) {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
         let near = f64::from(view.lens().near());
-        let seen: Vec<_> = self.0.vertices.iter().map(|vertex| view.camera(&(turn * vertex))).collect();
+        let seen: Vec<_> = self.vertices.iter().map(|vertex| view.camera(&(turn * vertex))).collect();
         let on_screen = |v: &Vector3<f64>| ScreenVertex::snap(view.lens().screen(lanes(v)))[0];
         let vertices: Vec<_> = seen.iter().map(on_screen).collect();
-        for (triangle, &part) in self.0.triangles.iter().zip(&self.0.parts) {
-            let id = first_id + number(part);
-            let corners = triangle.map(|vertex| seen[vertex as usize]);
-            match corners.iter().filter(|corner| corner.z >= near).count() {
-                0 => {}
-                3 => raster.draw(triangle.map(|vertex| vertices[vertex as usize]), id, Sides::Both),
-                _ => {
-                    let cut: Vec<_> = beyond(near, corners).iter().map(on_screen).collect();
-                    for k in 2..cut.len() {
-                        raster.draw([cut[0], cut[k - 1], cut[k]], id, Sides::Both);
+        for (number, triangles) in &self.parts {
+            for triangle in triangles {
+                let corners = triangle.map(|vertex| seen[vertex as usize]);
+                match corners.iter().filter(|corner| corner.z >= near).count() {
+                    0 => {}
+                    3 => {
+                        let corners = triangle.map(|vertex| vertices[vertex as usize]);
+                        raster.draw(corners, first_id + number, Sides::Both);
+                    }
+                    _ => {
+                        let cut: Vec<_> = beyond(near, corners).iter().map(on_screen).collect();
+                        for k in 2..cut.len() {
+                            raster.draw([cut[0], cut[k - 1], cut[k]], first_id + number, Sides::Both);
+                        }
                     }
                 }
             }

@@ -11,8 +11,14 @@ mod bed;
 mod drum;
 mod film;
 mod flux;
+#[cfg(feature = "gpu")]
+mod gpu;
+#[cfg(not(feature = "gpu"))]
+#[path = "no_gpu.rs"]
+mod gpu;
 mod gun;
 mod ledger;
+mod painter;
 mod raster;
 mod triangle;
 mod view;
@@ -20,10 +26,12 @@ mod view;
 pub(super) use bed::{Bed, Canvas};
 pub use film::{PanelIds, film_thickness, film_volume_per_count};
 pub use ledger::{CoatLedger, Exposure, SprayLoss};
+pub use painter::Backend;
 pub(super) use raster::IdRaster;
 pub(super) use view::{Lens, View};
 
 use self::gun::SprayGun;
+use self::painter::Painter;
 use super::{Observer, SprayZone};
 use crate::scene::Spray;
 use crate::shapes::{SurfaceMesh, TabletShape};
@@ -33,11 +41,11 @@ use std::borrow::Borrow;
 use std::path::PathBuf;
 
 /// Counts what the spray hits, frame by frame.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Coater {
     bed: Bed,
     gun: SprayGun,
-    canvas: Canvas,
+    painter: Painter,
     ledger: CoatLedger,
     exposed: Vec<Exposure>,
 }
@@ -106,7 +114,19 @@ impl Coater {
         let bed = Bed::new(shapes, body_shape, drum)?;
         let ledger = CoatLedger::new(bed.ids());
         let gun = SprayGun::new(&zone, spray)?;
-        Ok(Self { bed, canvas: Canvas::new(gun.pixels()), gun, ledger, exposed: Vec::new() })
+        let painter = Painter::new(&bed, gun.pixels(), Backend::Cpu);
+        Ok(Self { bed, gun, painter, ledger, exposed: Vec::new() })
+    }
+
+    /// Has `backend` draw from now on, or the processor where that is not to be had: [`Self::backend`] tells.
+    pub fn use_backend(&mut self, backend: Backend) {
+        self.painter = Painter::new(&self.bed, self.gun.pixels(), backend);
+    }
+
+    /// What draws, for the record of a run, and why not what was asked for: `cpu`, `gpu: NAME (API, driver)`,
+    /// `cpu: REASON` or `cpu from frame N on: REASON`.
+    pub fn backend(&self) -> &str {
+        self.painter.note()
     }
 
     /// The numbers of the panels.
@@ -150,17 +170,25 @@ impl Coater {
     /// Takes note of many frames, several at a time, and gives what [`Self::exposed`] would have been after each. Counts
     /// are whole numbers: they do not depend on the number of threads.
     pub fn observe_all(&mut self, frames: &[Frame<'_>]) -> Vec<Vec<Exposure>> {
+        if self.painter.uses_gpu() {
+            let observed = frames.iter().map(|frame| {
+                self.observe(frame);
+                self.exposed.clone()
+            });
+            return observed.collect();
+        }
         let share = frames.len().div_ceil(rayon::current_num_threads()).max(1);
-        let fresh = Self { ledger: CoatLedger::new(self.bed.ids()), ..self.clone() };
         let parts: Vec<_> = frames
             .par_chunks(share)
             .map(|some| {
-                let mut coater = fresh.clone();
+                let mut painter = Painter::new(&self.bed, self.gun.pixels(), Backend::Cpu);
+                let mut ledger = CoatLedger::new(self.bed.ids());
                 let exposed = some.iter().map(|frame| {
-                    coater.observe(frame);
-                    coater.exposed.clone()
+                    let mut exposed = Vec::new();
+                    count(&self.bed, &self.gun, frame, &mut painter, &mut ledger, &mut exposed);
+                    exposed
                 });
-                (exposed.collect::<Vec<_>>(), coater.ledger)
+                (exposed.collect::<Vec<_>>(), ledger)
             })
             .collect();
         parts
@@ -188,16 +216,27 @@ impl Coater {
 
 impl Observer for Coater {
     fn observe(&mut self, frame: &Frame<'_>) {
-        self.exposed.clear();
-        if !self.gun.is_on(frame.time) {
-            return;
-        }
-        for view in self.gun.views(frame.index) {
-            self.bed.draw(&view, frame, &mut self.canvas);
-            self.ledger.add(self.canvas.raster.rows(), self.gun.weights(), self.bed.ids(), &mut self.exposed);
-        }
-        self.ledger.end_frame(&mut self.exposed);
+        count(&self.bed, &self.gun, frame, &mut self.painter, &mut self.ledger, &mut self.exposed);
     }
+}
+
+/// Adds a frame to the ledger; replaces `exposed` by the bodies seen in it.
+fn count(
+    bed: &Bed,
+    gun: &SprayGun,
+    frame: &Frame<'_>,
+    painter: &mut Painter,
+    ledger: &mut CoatLedger,
+    exposed: &mut Vec<Exposure>,
+) {
+    exposed.clear();
+    if !gun.is_on(frame.time) {
+        return;
+    }
+    for view in gun.views(frame.index) {
+        painter.draw(bed, &view, frame, |rows| ledger.add(rows, gun.weights(), bed.ids(), exposed));
+    }
+    ledger.end_frame(exposed);
 }
 
 #[cfg(test)]

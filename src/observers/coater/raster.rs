@@ -4,8 +4,7 @@
 //! centre belongs to exactly one of two triangles that share an edge. At equal depth the lower number wins, so the
 //! order of drawing does not matter. Depth per tile lets a caller skip what is hidden entirely.
 
-pub(in crate::observers) use super::triangle::Bounds;
-use super::triangle::{DepthPlane, LANE_STEP, LANES, ScreenVertex, Sides, Triangle};
+use super::triangle::{Bounds, DepthPlane, LANE_STEP, LANES, ScreenVertex, Sides, Triangle};
 use wide::{f32x4, i32x4, u32x4};
 
 /// Side of a depth tile, pixels.
@@ -49,6 +48,16 @@ impl IdRaster {
         raster
     }
 
+    /// Last column and row.
+    pub(super) fn last(&self) -> [i32; 2] {
+        self.last
+    }
+
+    /// Columns.
+    pub(super) fn width(&self) -> usize {
+        self.width
+    }
+
     /// Numbers seen, row by row.
     pub(in crate::observers) fn rows(&self) -> impl Iterator<Item = &[u32]> {
         self.ids.chunks_exact(self.stride).map(|row| &row[..self.width])
@@ -65,17 +74,6 @@ impl IdRaster {
         self.ids.fill(background);
         self.depths.chunks_exact_mut(self.stride).for_each(|row| row[..self.width].fill(f32::INFINITY));
         self.tile_depths.fill(f32::INFINITY);
-    }
-
-    /// The pixels whose centres lie between `min` and `max` (pixels); `None` when there are none on the screen.
-    pub(in crate::observers) fn pixels_between(&self, min: [f32; 2], max: [f32; 2]) -> Option<Bounds> {
-        // Half a step of the vertex grid and the rounding of f32 stay within a hundredth of a pixel.
-        let [columns, rows] = std::array::from_fn(|k| {
-            let first = (min[k] - 0.01).ceil().max(0.0);
-            let last = (max[k] + 0.01).floor().min(self.last[k] as f32);
-            [first as i32, if last < 0.0 { -1 } else { last as i32 }]
-        });
-        (columns[0] <= columns[1] && rows[0] <= rows[1]).then_some(Bounds { columns, rows })
     }
 
     /// Whether nothing as deep as `nearest` or deeper can be seen in `area`.

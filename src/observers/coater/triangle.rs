@@ -43,6 +43,18 @@ pub(in crate::observers) struct Bounds {
     pub(super) rows: [i32; 2],
 }
 
+impl Bounds {
+    /// The pixels, up to the `last` column and row of a screen, whose centres lie between `min` and `max` (pixels).
+    pub(super) fn between(min: [f32; 2], max: [f32; 2], last: [i32; 2]) -> Option<Self> {
+        // Half a step of the vertex grid and the rounding of f32 stay within a hundredth of a pixel.
+        let [columns, rows] = std::array::from_fn(|k| {
+            let (low, high) = ((min[k] - 0.01).ceil().max(0.0), (max[k] + 0.01).floor().min(last[k] as f32));
+            [low as i32, high.max(-1.0) as i32]
+        });
+        (columns[0] <= columns[1] && rows[0] <= rows[1]).then_some(Self { columns, rows })
+    }
+}
+
 impl ScreenVertex {
     /// Snaps the screen coordinates of some vertices to the grid.
     pub(in crate::observers) fn snap([x, y, depth]: [f32x4; 3]) -> [Self; LANES] {

@@ -109,6 +109,42 @@ impl View {
     }
 }
 
+/// What a graphics card is told of a view.
+#[cfg(feature = "gpu")]
+impl View {
+    /// Where what turns with the drum comes to lie when it has turned by `angle`, rad about +z.
+    pub(super) fn place_turned(&self, angle: f64) -> Placement {
+        let orientation = nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+        let still = Vector3::zeros();
+        self.place(&BodyState { position: still, orientation, velocity: still, spin: still })
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl Lens {
+    pub(super) fn rays(&self) -> Rays {
+        self.rays
+    }
+
+    /// The axis on the screen, pixels.
+    pub(super) fn axis(&self) -> [f32; 2] {
+        self.axis
+    }
+
+    /// From the nozzle to the zone, m.
+    pub(super) fn distance(&self) -> f32 {
+        self.distance
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl Placement {
+    /// Rows of the turn, the position last.
+    pub(super) fn rows(&self) -> [[f32; 4]; 3] {
+        std::array::from_fn(|k| [self.turn[k][0], self.turn[k][1], self.turn[k][2], self.at[k]])
+    }
+}
+
 impl Lens {
     /// Screen coordinates of points in camera coordinates. Depth grows away from the nozzle and is linear over the screen
     /// within a plane: metres for parallel rays, the negative inverse of metres for diverging ones. Points nearer than
