@@ -1,6 +1,6 @@
 //! The round tablets of `scenes/round.ron` through the library: fill, settle, aim, spray, and print what came out.
 //!
-//! `cargo run --release --example round -- 5` sprays for 5 s: CoV_intra is then near 0.9, and CoV_inter near 0.4.
+//! `cargo run --release --example round -- 5` sprays for 5 s: CoV_intra is then near 0.84, CoV_inter near 0.44.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use pancoat::models::{BatchStatistics, CoatMap};
