@@ -45,7 +45,7 @@ struct CoatedShape {
     /// Counts at the end of the last block, tablet after tablet.
     blocked: Vec<u64>,
     /// What was gained in each block.
-    blocks: Vec<Vec<u32>>,
+    blocks: Vec<Vec<u64>>,
 }
 
 /// Why coating cannot go on.
@@ -211,7 +211,7 @@ impl CoatedShape {
 
     fn close_block(&mut self, coater: &Coater) {
         let now = self.counts(coater);
-        self.blocks.push(now.iter().zip(&self.blocked).map(|(now, before)| (now - before) as u32).collect());
+        self.blocks.push(now.iter().zip(&self.blocked).map(|(now, before)| now - before).collect());
         self.blocked = now;
     }
 
