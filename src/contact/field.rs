@@ -15,8 +15,6 @@ use rayon::prelude::*;
 /// Lists keep sphere pairs with a gap below this share of the largest bounding radius. Small skins are used up quickly
 /// and lists are rebuilt often; large ones hold many pairs that do not touch.
 const SKIN: f64 = 0.03;
-/// Odometers run this much fast: what a step's chord leaves of the arc, rounding included.
-const SAFETY: f64 = 1.01;
 /// Pairs that one task takes: a fixed number, so that results do not depend on the number of threads.
 const CHUNK: usize = 512;
 
@@ -74,7 +72,6 @@ pub struct ContactField {
     pairs: Vec<Box<BodyPair>>,
     boundaries: Vec<Boundary>,
     walls: Vec<WallList>,
-    odometers: Vec<f64>,
     /// Torque on each surface about its own origin in the last step, N m.
     surface_torques: Vec<Vector3<f64>>,
 }
@@ -100,7 +97,6 @@ impl ContactField {
             pairs: Vec::new(),
             boundaries: Vec::new(),
             walls: Vec::new(),
-            odometers: Vec::new(),
             surface_torques: Vec::new(),
         }
     }
@@ -112,7 +108,6 @@ impl ContactField {
         let inverse_mass = 1.0 / mass;
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
-        self.odometers.push(0.0);
         let surfaces = self.boundaries.len() as u32;
         self.walls.extend((0..surfaces).map(|surface| WallList::new(body, surface)));
     }
@@ -146,13 +141,6 @@ impl ContactField {
         (self.watches, self.pairs) = kept.unzip();
     }
 
-    /// Tells the field that a body moved by `moved` m and turned by `turned` rad against the carrier.
-    #[inline]
-    pub fn travel(&mut self, body: usize, moved: f64, turned: f64) {
-        let reach = self.outlines[self.bodies[body].shape].reach;
-        self.odometers[body] += SAFETY * (moved + turned * reach);
-    }
-
     /// Forces and torques of all contacts, added to `wrenches` in the order of pairs and bodies whatever the number of
     /// threads. `surfaces` are the motions of all surfaces at the same instant; springs advance by `dt`, s.
     pub fn add_forces(
@@ -170,7 +158,7 @@ impl ContactField {
             outlines: &self.outlines,
             bodies: &self.bodies,
             motions,
-            odometers: &self.odometers,
+            odometers: world.odometers(),
             laws: &self.laws,
             materials: self.materials,
             damping: self.damping,

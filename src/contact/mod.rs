@@ -7,6 +7,7 @@
 mod body;
 mod field;
 mod law;
+mod lease;
 mod pairs;
 mod resolve;
 mod surface;

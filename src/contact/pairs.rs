@@ -8,10 +8,11 @@
 
 use super::body::{BodyConstants, Outline};
 use super::law::{PairLaw, Spring};
+use super::lease::Lease;
 use super::resolve::{Exchange, Partner, Place, Remembers, resolve};
 use crate::scene::DampingMass;
-use crate::world::Motion;
-use nalgebra::{Matrix3, Vector3};
+use crate::world::{Motion, Relative};
+use nalgebra::Vector3;
 use smallvec::SmallVec;
 
 /// Two spheres that may touch.
@@ -51,13 +52,10 @@ pub(super) struct BodyPair {
     /// Sorted by (i, j).
     pub links: SmallVec<[Link; 4]>,
     pub exchange: Exchange,
-    /// Relative motion the list allows, m, and where it was built.
-    allowance: f64,
-    built: Relative,
-    /// Sphere pairs that were within a gap of `width`, m, at the pose `sought`; sorted.
+    listed: Lease,
+    /// Sphere pairs that were near when they were `sought`; sorted.
     candidates: Vec<(u16, u16)>,
-    width: f64,
-    sought: Relative,
+    sought: Lease,
 }
 
 /// What a pair reads while it works.
@@ -97,25 +95,6 @@ impl Setting<'_> {
 
 /// Skin of the candidates, in skins: they are found anew so many times more rarely than lists are.
 const WIDE: f64 = 5.0;
-/// A list is renewed when less than this share of its skin is left.
-const RENEW: f64 = 0.3;
-
-/// Pose of b in a's axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Relative {
-    position: Vector3<f64>,
-    rotation: Matrix3<f64>,
-}
-
-impl Relative {
-    /// How far b's sphere centres can have moved against a since `then`, m; `reach` is the farthest of them.
-    fn moved_since(&self, then: &Self, reach: f64) -> f64 {
-        // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
-        let turned = (3.0 - then.rotation.dot(&self.rotation)).max(0.0).sqrt();
-        (self.position - then.position).norm() + turned * reach
-    }
-}
-
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
         Self { a, b, mark: f64::NEG_INFINITY, quiet: f64::NEG_INFINITY, contacts: 0 }
@@ -147,12 +126,10 @@ impl BodyPair {
     pub(super) fn new() -> Self {
         Self {
             links: SmallVec::new(),
-            built: Relative { position: Vector3::zeros(), rotation: Matrix3::zeros() },
-            allowance: 0.0,
-            candidates: Vec::new(),
-            width: 0.0,
-            sought: Relative { position: Vector3::zeros(), rotation: Matrix3::zeros() },
             exchange: Exchange::default(),
+            listed: Lease::NONE,
+            candidates: Vec::new(),
+            sought: Lease::NONE,
         }
     }
 
@@ -165,37 +142,39 @@ impl BodyPair {
     ) -> bool {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let travelled = watch.travelled(setting.odometers);
-        let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
-        let now = Relative {
-            position: ma.rotation.tr_mul(&(mb.position - ma.position)),
-            rotation: ma.rotation.tr_mul(&mb.rotation),
-        };
+        let now = setting.motions[b].seen_from(&setting.motions[a]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
-        let left = self.allowance - now.moved_since(&self.built, ob.reach);
-        if left > RENEW * self.allowance {
+        let left = self.listed.left(&now, ob.reach);
+        if self.listed.holds(left) {
             watch.mark = travelled + left;
             return false;
         }
-        self.built = now;
-        if self.width - now.moved_since(&self.sought, ob.reach) < setting.skin {
-            self.seek(oa, ob, WIDE * setting.skin, near);
+        if self.sought.left(&now, ob.reach) < setting.skin {
+            self.seek(oa, ob, now, WIDE * setting.skin, near);
         }
         // What is no candidate has at least this gap.
-        self.allowance = self.width - now.moved_since(&self.sought, ob.reach);
+        self.listed = Lease { at: now, allowance: self.sought.left(&now, ob.reach) };
         self.list(oa, ob, setting.skin, travelled);
-        watch.mark = travelled + self.allowance;
+        watch.mark = travelled + self.listed.allowance;
         watch.quiet = f64::NEG_INFINITY;
         true
     }
 
-    /// Finds the candidates at the pose `built`. `near` is scratch: b's spheres near a's box, in a's axes.
-    fn seek(&mut self, oa: &Outline, ob: &Outline, width: f64, near: &mut Vec<(u16, Vector3<f64>)>) {
-        let Relative { position, rotation } = self.built;
-        self.sought = self.built;
-        self.width = width.max(position.norm() - oa.bounding_radius - ob.bounding_radius);
+    /// Finds the candidates, with gaps below `width`. `near` is scratch: b's spheres near a's box, in a's axes.
+    fn seek(
+        &mut self,
+        oa: &Outline,
+        ob: &Outline,
+        at: Relative,
+        width: f64,
+        near: &mut Vec<(u16, Vector3<f64>)>,
+    ) {
+        let Relative { position, rotation } = at;
+        let apart = position.norm() - oa.bounding_radius - ob.bounding_radius;
+        self.sought = Lease { at, allowance: width.max(apart) };
         self.candidates.clear();
         near.clear();
-        if self.width > width {
+        if apart > width {
             return;
         }
         let (mut min, mut max) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
@@ -224,20 +203,20 @@ impl BodyPair {
 
     /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
     fn list(&mut self, oa: &Outline, ob: &Outline, skin: f64, travelled: f64) {
-        let Relative { position, rotation } = self.built;
+        let Lease { at: Relative { position, rotation }, allowance } = &mut self.listed;
         let old = std::mem::take(&mut self.links);
         let mut memory = old.iter().filter(|l| l.touching).peekable();
         for &(i, j) in &self.candidates {
             let (si, sj) = (&oa.spheres[i as usize], &ob.spheres[j as usize]);
             let sum = si.radius + sj.radius;
-            let distance2 = (position + rotation * sj.center - si.center).norm_squared();
-            let reach = sum + self.allowance;
+            let distance2 = (*position + *rotation * sj.center - si.center).norm_squared();
+            let reach = sum + *allowance;
             if distance2 >= reach * reach {
                 continue;
             }
             let gap = distance2.sqrt() - sum;
             if gap >= skin {
-                self.allowance = gap;
+                *allowance = gap;
                 continue;
             }
             while memory.next_if(|l| (l.i, l.j) < (i, j)).is_some() {}

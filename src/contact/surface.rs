@@ -1,11 +1,7 @@
 //! Surfaces that bodies touch: triangle meshes cut into smooth patches, and unbounded planes.
 
-use crate::shapes::SurfaceMesh;
+use crate::shapes::{PATCH_ANGLE, SurfaceMesh};
 use nalgebra::Vector3;
-
-/// Facets whose planes differ by less than this belong to one smooth patch, rad. A sphere feels one contact per patch:
-/// larger values merge real edges, smaller ones make a faceted cylinder push twice at each facet edge.
-pub(super) const SMOOTH: f64 = 0.35;
 
 /// One triangle, in the surface's own axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +10,7 @@ pub(super) struct Facet {
     normal: Vector3<f64>,
     /// Ball about the facet: centre, m, and radius, m.
     ball: (Vector3<f64>, f64),
-    pub patch: u32,
+    patch: u32,
     /// Patches that meet each edge k → k+1 and each corner, this facet's own left out.
     edge_patches: [Vec<u32>; 3],
     corner_patches: [Vec<u32>; 3],
@@ -41,7 +37,7 @@ pub(super) enum Surface {
 
 impl Surface {
     pub(super) fn mesh(mesh: &SurfaceMesh) -> Self {
-        let patches = mesh.patches(SMOOTH);
+        let patches = mesh.patches(PATCH_ANGLE);
         let mut at_vertex = vec![Vec::new(); mesh.vertices.len()];
         for (triangle, patch) in mesh.triangles.iter().zip(&patches) {
             for &v in triangle {
@@ -74,6 +70,24 @@ impl Surface {
             }
         });
         Self::Mesh(facets.collect())
+    }
+
+    /// Smooth patch that a facet belongs to: a sphere feels one contact per patch.
+    #[inline]
+    pub(super) fn patch(&self, facet: u32) -> u32 {
+        match self {
+            Self::Plane(..) => 0,
+            Self::Mesh(all) => all[facet as usize].patch,
+        }
+    }
+
+    /// Whether a facet is surely farther than `distance` from `p` (surface axes).
+    #[inline]
+    pub(super) fn beyond(&self, facet: u32, p: &Vector3<f64>, distance: f64) -> bool {
+        match self {
+            Self::Plane(point, normal) => (p - point).dot(normal) > distance,
+            Self::Mesh(all) => all[facet as usize].beyond(p, distance),
+        }
     }
 
     /// Nearest place to `p` (surface axes) among the listed facets; a plane ignores the list.

@@ -4,12 +4,15 @@
 //! while it moves from facet to facet. Where two patches meet in a convex edge, the place is felt once; a spring moves
 //! over to the patch that takes the sphere on. In a concave corner both patches push.
 
+use super::body::Outline;
 use super::law::Spring;
+use super::lease::Lease;
 use super::pairs::Setting;
 use super::resolve::{Exchange, Partner, Place, Remembers, resolve};
 use super::surface::{Nearest, Surface};
-use crate::world::Motion;
-use nalgebra::{Matrix3, Vector3};
+use crate::shapes::Sphere;
+use crate::world::{Motion, Relative};
+use nalgebra::Vector3;
 
 /// One sphere against one patch.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +39,10 @@ pub(super) struct WallList {
     /// Sorted by (sphere, patch).
     pub grips: Vec<Grip>,
     facets: Vec<u32>,
-    built: (Vector3<f64>, Matrix3<f64>),
-    allowance: f64,
+    listed: Lease,
+    /// Spheres and facets that were near when they were `sought`, sorted by (sphere, patch).
+    candidates: Vec<(u16, u32)>,
+    sought: Lease,
     mark: f64,
     pub exchange: Exchange,
 }
@@ -55,10 +60,10 @@ pub(super) struct Boundary {
     pub motion: Motion,
 }
 
-/// Lists look this many skins around, so that bodies far from a wall rest long.
+/// Skin of the candidates, in skins.
+const WIDE: f64 = 4.0;
+/// How far a body that has no candidate looks for walls, in skins: one far from all of them rests long.
 const LOOKOUT: f64 = 16.0;
-/// A list is renewed when less than this share of its skin is left.
-const RENEW: f64 = 0.3;
 
 impl WallList {
     pub(super) fn new(body: u32, surface: u32) -> Self {
@@ -67,8 +72,9 @@ impl WallList {
             surface,
             grips: Vec::new(),
             facets: Vec::new(),
-            built: (Vector3::zeros(), Matrix3::zeros()),
-            allowance: 0.0,
+            listed: Lease::NONE,
+            candidates: Vec::new(),
+            sought: Lease::NONE,
             mark: f64::NEG_INFINITY,
             exchange: Exchange::default(),
         }
@@ -88,90 +94,90 @@ impl WallList {
         if boundary.carrier && travelled <= self.mark {
             return;
         }
-        let motion = &setting.motions[self.body as usize];
-        let position = boundary.motion.rotation.tr_mul(&(motion.position - boundary.motion.position));
-        let rotation = boundary.motion.rotation.tr_mul(&motion.rotation);
+        let now = setting.motions[self.body as usize].seen_from(&boundary.motion);
         let outline = &setting.outlines[setting.bodies[self.body as usize].shape];
-        let turned = (3.0 - self.built.1.dot(&rotation)).max(0.0).sqrt();
-        let left = self.allowance - (position - self.built.0).norm() - turned * outline.reach;
-        if left > RENEW * self.allowance {
+        let left = self.listed.left(&now, outline.reach);
+        if self.listed.holds(left) {
             self.mark = travelled + left;
             return;
         }
-        self.built = (position, rotation);
-        let lookout = LOOKOUT * setting.skin;
-        scratch.clear();
-        match &boundary.surface {
-            Surface::Plane(point, normal) => {
-                if (position - point).dot(normal) < outline.bounding_radius + lookout {
-                    scratch.push(0);
-                }
+        if self.sought.left(&now, outline.reach) < setting.skin {
+            scratch.clear();
+            if let Surface::Mesh(_) = &boundary.surface {
+                let reach = Vector3::repeat(outline.bounding_radius + LOOKOUT * setting.skin);
+                facets_near(&(now.position - reach), &(now.position + reach), scratch);
+            } else {
+                scratch.push(0);
             }
-            Surface::Mesh(_) => {
-                let reach = Vector3::repeat(outline.bounding_radius + lookout);
-                facets_near(&(position - reach), &(position + reach), scratch);
-                scratch.sort_unstable();
-            }
+            self.seek(outline, &boundary.surface, now, setting.skin, scratch);
         }
-        self.rebuild(setting, boundary, scratch);
-        self.mark = travelled + self.allowance;
+        // What is no candidate has at least this gap.
+        self.listed = Lease { at: now, allowance: self.sought.left(&now, outline.reach) };
+        self.list(outline, &boundary.surface, setting.skin);
+        self.mark = travelled + self.listed.allowance;
     }
 
-    fn rebuild(&mut self, setting: &Setting<'_>, boundary: &Boundary, near: &mut Vec<u32>) {
-        let (position, rotation) = self.built;
-        let outline = &setting.outlines[setting.bodies[self.body as usize].shape];
+    /// Finds the candidates among the facets `near`.
+    fn seek(&mut self, outline: &Outline, surface: &Surface, at: Relative, skin: f64, near: &mut Vec<u32>) {
+        let Relative { position, rotation } = at;
+        let (wide, mut nearest) = (WIDE * skin, LOOKOUT * skin);
+        self.candidates.clear();
+        near.retain(|f| !surface.beyond(*f, &position, outline.bounding_radius + nearest));
+        near.sort_unstable_by_key(|f| (surface.patch(*f), *f));
+        for (i, sphere) in outline.spheres.iter().enumerate() {
+            let center = position + rotation * sphere.center;
+            for &f in near.iter() {
+                if surface.beyond(f, &center, sphere.radius + nearest) {
+                    continue;
+                }
+                let gap = surface.nearest(&center, &[f]).distance - sphere.radius;
+                if gap < wide {
+                    self.candidates.push((i as u16, f));
+                    nearest = wide;
+                } else {
+                    nearest = nearest.min(gap);
+                }
+            }
+        }
+        self.sought = Lease { at, allowance: nearest };
+    }
+
+    /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
+    fn list(&mut self, outline: &Outline, surface: &Surface, skin: f64) {
+        let Lease { at: Relative { position, rotation }, allowance } = &mut self.listed;
         let old = std::mem::take(&mut self.grips);
         let mut memory = old.into_iter().filter(|g| g.touching).peekable();
         self.facets.clear();
-        let mut nearest = LOOKOUT * setting.skin;
-        let patch_of = |f: u32| match &boundary.surface {
-            Surface::Plane(..) => 0,
-            Surface::Mesh(all) => all[f as usize].patch,
-        };
-        if let Surface::Mesh(all) = &boundary.surface {
-            near.retain(|f| !all[*f as usize].beyond(&position, outline.bounding_radius + nearest));
-        }
-        near.sort_by_key(|f| (patch_of(*f), *f));
-        for (i, sphere) in outline.spheres.iter().enumerate() {
-            let center = position + rotation * sphere.center;
-            let mut k = 0;
-            while k < near.len() {
-                let patch = patch_of(near[k]);
-                let first = self.facets.len() as u32;
-                while k < near.len() && patch_of(near[k]) == patch {
-                    let f = near[k];
-                    k += 1;
-                    if let Surface::Mesh(all) = &boundary.surface
-                        && all[f as usize].beyond(&center, sphere.radius + nearest)
-                    {
-                        continue;
-                    }
-                    let gap = boundary.surface.nearest(&center, &[f]).distance - sphere.radius;
-                    if gap < setting.skin {
-                        self.facets.push(f);
-                    } else {
-                        nearest = nearest.min(gap);
-                    }
-                }
-                let last = self.facets.len() as u32;
-                if last == first {
+        let patches = self.candidates.chunk_by(|a, b| a.0 == b.0 && surface.patch(a.1) == surface.patch(b.1));
+        for candidates in patches {
+            let (sphere, patch) = (candidates[0].0, surface.patch(candidates[0].1));
+            let Sphere { center, radius } = &outline.spheres[sphere as usize];
+            let center = *position + *rotation * center;
+            let first = self.facets.len() as u32;
+            for &(_, f) in candidates {
+                if surface.beyond(f, &center, radius + *allowance) {
                     continue;
                 }
-                nearest = nearest.min(setting.skin);
-                let key = (i as u16, patch);
-                // What touched and is out of reach now must still let go of its spring: see `hand_over`.
-                while let Some(gone) = memory.next_if(|g| (g.sphere, g.patch) < key) {
-                    self.grips.push(Grip { facets: (first, first), ..gone });
+                let gap = surface.nearest(&center, &[f]).distance - radius;
+                if gap < skin {
+                    self.facets.push(f);
+                } else {
+                    *allowance = allowance.min(gap);
                 }
-                let (touching, spring) = match memory.next_if(|g| (g.sphere, g.patch) == key) {
-                    Some(grip) => (true, grip.spring),
-                    None => (false, Spring::default()),
-                };
-                self.grips.push(Grip { sphere: key.0, patch, facets: (first, last), touching, spring });
             }
+            let facets = (first, self.facets.len() as u32);
+            if facets.0 == facets.1 {
+                continue;
+            }
+            // What touched and is out of reach now must still let go of its spring: see `hand_over`.
+            while let Some(gone) = memory.next_if(|g| (g.sphere, g.patch) < (sphere, patch)) {
+                self.grips.push(Grip { facets: (0, 0), ..gone });
+            }
+            let known = memory.next_if(|g| (g.sphere, g.patch) == (sphere, patch));
+            let (touching, spring) = known.map_or_else(Default::default, |g| (true, g.spring));
+            self.grips.push(Grip { sphere, patch, facets, touching, spring });
         }
         self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
-        self.allowance = nearest.max(setting.skin);
     }
 
     /// Forces of this step, left in `exchange`.

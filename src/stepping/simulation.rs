@@ -155,8 +155,9 @@ impl Simulation {
         let dt = self.time_step.step;
         self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
-        if self.world.must_search(&self.motions) {
-            let near = self.world.search(&self.motions, &self.surfaces[..self.meshes]);
+        let carrier = self.carrier();
+        if self.world.must_search(&self.motions, &carrier) {
+            let near = self.world.search(&self.motions, &self.surfaces[..self.meshes], &carrier);
             self.field.set_near(near);
             self.stopwatch.lap(Phase::Search);
         }
@@ -175,16 +176,21 @@ impl Simulation {
     }
 
     fn drift(&mut self, dt: f64) {
-        let carrier = Vector3::z() * self.scene.drum.as_ref().map_or(0.0, |d| d.speed);
+        let carrier = self.carrier().spin;
         for (k, (body, motion)) in self.bodies.iter_mut().zip(&mut self.motions).enumerate() {
             body.kick(0.5 * dt);
             let middle = motion.position + body.velocity * (0.5 * dt);
             let (moved, turned) = body.drift(motion, dt);
             let moved = (moved - carrier.cross(&middle) * dt).norm();
-            self.field.travel(k, moved, (turned - carrier * dt).norm());
+            self.world.travel(k, moved, (turned - carrier * dt).norm());
         }
         self.step += 1;
         self.move_surfaces();
+    }
+
+    /// What the bed moves with: the drum, which is the first surface and turns about the origin, or nothing.
+    fn carrier(&self) -> Motion {
+        if self.drum.is_some() { self.surfaces[0] } else { Motion::at_rest() }
     }
 
     fn move_surfaces(&mut self) {

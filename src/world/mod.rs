@@ -1,6 +1,9 @@
 //! The only room that knows Rapier: a kinematic body with a triangle mesh for the drum and every other surface, a
 //! dynamic body with a compound of balls for every tablet, and [`hooks::ContactHooks`], which takes their contacts over.
 //!
+//! Rapier's world is seen from the carrier, the surface whose motion the bed shares: a bed that turns with its drum rests
+//! there, so its bodies' boxes hold for long.
+//!
 //! In: poses in f64. Out: which bodies are near each other, and which facets are near a body. What it does not do: turn
 //! contacts into forces (room `contact`) or move anything (room `stepping`).
 
@@ -8,7 +11,7 @@ mod hooks;
 mod motion;
 mod tuning;
 
-pub use motion::Motion;
+pub use motion::{Motion, Relative};
 
 use crate::shapes::{Clump, SurfaceMesh};
 use hooks::{ContactHooks, SURFACE};
@@ -27,12 +30,31 @@ pub struct World {
     parameters: IntegrationParameters,
     tablets: Vec<(RigidBodyHandle, ColliderHandle)>,
     surfaces: Vec<(RigidBodyHandle, SharedShape)>,
-    /// Poses that Rapier knows, by tablet.
-    known: Vec<Motion>,
-    /// How far each tablet may move from there, m.
-    margins: Vec<f64>,
-    reaches: Vec<f64>,
+    tracks: Vec<Track>,
+    /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
+    odometers: Vec<f64>,
     near: Vec<(u32, u32)>,
+}
+
+/// What a tablet's box is worth.
+struct Track {
+    /// Pose that Rapier knows, seen from the carrier.
+    known: Relative,
+    /// How far the tablet may move from there, m.
+    margin: f64,
+    /// Largest distance of a sphere's centre from the centre of mass, m.
+    reach: f64,
+    /// Largest distance of a sphere's far side from there, m.
+    bounding_radius: f64,
+    /// Odometer up to which the margin holds for sure, m.
+    mark: f64,
+}
+
+impl Track {
+    /// Whether less than `share` of the margin is used up; false for a NaN pose.
+    fn within(&self, now: &Relative, share: f64) -> bool {
+        now.moved_since(&self.known, self.reach) < share * self.margin
+    }
 }
 
 impl Default for World {
@@ -63,9 +85,8 @@ impl World {
             },
             tablets: Vec::new(),
             surfaces: Vec::new(),
-            known: Vec::new(),
-            margins: Vec::new(),
-            reaches: Vec::new(),
+            tracks: Vec::new(),
+            odometers: Vec::new(),
             near: Vec::new(),
         }
     }
@@ -95,53 +116,74 @@ impl World {
             .iter()
             .map(|s| (Pose::from_translation(to_f32(&s.center)), SharedShape::ball(s.radius as f32)));
         let properties = MassProperties::new(Vec3::ZERO, mass as f32, to_f32(inertia));
-        let body = RigidBodyBuilder::dynamic().pose(pose(motion)).sleeping(true).user_data(index as u128);
+        let body = RigidBodyBuilder::dynamic().pose(pose(&motion.seen_from(&Motion::at_rest()))).sleeping(true).user_data(index as u128);
         let handle = self.bodies.insert(body);
         let collider = ColliderBuilder::new(SharedShape::compound(balls.collect()))
             .mass_properties(properties)
             .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS);
         let collider = self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.tablets.push((handle, collider));
-        self.margins.push(0.0);
-        self.known.push(Motion { position: Vector3::repeat(f64::INFINITY), ..*motion });
-        self.reaches.push(clump.bounding_radius());
+        let reach = clump.spheres.iter().map(|s| s.center.norm()).fold(0.0, f64::max);
+        self.tracks.push(Track {
+            known: Relative::NOWHERE,
+            margin: 0.0,
+            reach,
+            bounding_radius: clump.bounding_radius(),
+            mark: f64::NEG_INFINITY,
+        });
+        self.odometers.push(0.0);
         index
     }
 
-    /// Whether some body may have come near another since the last search: it has used up its share of the margin.
+    /// Tells the world that a tablet moved by `moved` m and turned by `turned` rad against the carrier.
     #[inline]
-    pub fn must_search(&self, motions: &[Motion]) -> bool {
-        motions.iter().enumerate().any(|(k, motion)| !self.within(k, motion, 1.0))
+    pub fn travel(&mut self, body: usize, moved: f64, turned: f64) {
+        self.odometers[body] += tuning::SAFETY * (moved + turned * self.tracks[body].reach);
     }
 
-    /// Whether a body has used less than `share` of its margin since Rapier learnt its pose; false for a NaN pose.
-    #[inline]
-    fn within(&self, body: usize, now: &Motion, share: f64) -> bool {
-        let (then, reach) = (&self.known[body], self.reaches[body]);
-        let turned = (3.0 - now.rotation.dot(&then.rotation)).max(0.0).sqrt();
-        let moved = (now.position - then.position).norm() + turned * reach;
-        moved < share * self.margins[body]
+    /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
+    pub fn odometers(&self) -> &[f64] {
+        &self.odometers
+    }
+
+    /// Whether some body may have come near another since the last search: it has used up its margin.
+    pub fn must_search(&mut self, motions: &[Motion], carrier: &Motion) -> bool {
+        let bodies = self.tracks.iter_mut().zip(&self.odometers).zip(motions);
+        bodies.filter(|((track, odometer), _)| odometer.is_nan() || **odometer > track.mark).any(
+            |((track, odometer), motion)| {
+                let now = motion.seen_from(carrier);
+                track.mark = odometer + track.margin - now.moved_since(&track.known, track.reach);
+                !track.within(&now, tuning::SPENT)
+            },
+        )
     }
 
     /// All pairs of bodies that can touch before [`World::must_search`] says so: smaller index first, sorted.
     ///
     /// Rapier learns the poses of bodies that have used most of their margin, and its hooks report the pairs those
     /// bodies are in; all other pairs stay as they were.
-    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion]) -> &[(u32, u32)] {
+    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> &[(u32, u32)] {
         for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
-            self.bodies[*handle].set_position(pose(motion), false);
+            self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
         }
-        let moved: Vec<bool> =
-            motions.iter().enumerate().map(|(k, m)| !self.within(k, m, tuning::EARLY)).collect();
-        for (k, (body, collider)) in self.tablets.iter().enumerate().filter(|(k, _)| moved[*k]) {
-            let (motion, reach) = (&motions[k], self.reaches[k]);
-            let speed = motion.velocity.norm() + motion.spin.norm() * reach;
+        let mut moved = vec![false; motions.len()];
+        for (k, (body, collider)) in self.tablets.iter().enumerate() {
+            let (motion, track) = (&motions[k], &mut self.tracks[k]);
+            let now = motion.seen_from(carrier);
+            if track.within(&now, tuning::EARLY) {
+                continue;
+            }
+            moved[k] = true;
+            let velocity = motion.velocity - carrier.velocity_at(&(motion.position - carrier.position));
+            let speed = velocity.norm() + (motion.spin - carrier.spin).norm() * track.reach;
             let (least, most) = tuning::MARGIN;
-            let margin = (speed * tuning::HORIZON).clamp(least * reach, most * reach);
-            self.bodies[*body].set_position(pose(motion), false);
+            let size = track.bounding_radius;
+            let margin = (speed * tuning::HORIZON).clamp(least * size, most * size);
+            self.bodies[*body].set_position(pose(&now), false);
             self.colliders[*collider].set_contact_skin(margin as f32);
-            self.known[k] = *motion;
-            self.margins[k] = margin - tuning::ROUNDING;
+            track.known = now;
+            track.margin = margin - tuning::ROUNDING;
+            track.mark = self.odometers[k] + track.margin;
         }
         self.pipeline.step(
             Vec3::ZERO,
@@ -180,8 +222,8 @@ fn to_f32(v: &Vector3<f64>) -> Vec3 {
     Vec3::new(v.x as f32, v.y as f32, v.z as f32)
 }
 
-fn pose(motion: &Motion) -> Pose {
-    let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(motion.rotation));
+fn pose(seen: &Relative) -> Pose {
+    let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(seen.rotation));
     let rotation = Rotation::from_xyzw(q.i as f32, q.j as f32, q.k as f32, q.w as f32);
-    Pose::from_parts(to_f32(&motion.position), rotation)
+    Pose::from_parts(to_f32(&seen.position), rotation)
 }

@@ -32,4 +32,36 @@ impl Motion {
     pub fn velocity_at(&self, arm: &Vector3<f64>) -> Vector3<f64> {
         self.velocity + self.spin.cross(arm)
     }
+
+    /// This body's pose as another one sees it, in that one's axes.
+    #[inline]
+    pub fn seen_from(&self, other: &Self) -> Relative {
+        Relative {
+            position: other.rotation.tr_mul(&(self.position - other.position)),
+            rotation: other.rotation.tr_mul(&self.rotation),
+        }
+    }
+}
+
+/// The pose of one body in another's axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relative {
+    /// m.
+    pub position: Vector3<f64>,
+    /// Turns the one's axes to the other's.
+    pub rotation: Matrix3<f64>,
+}
+
+impl Relative {
+    /// No pose: infinitely far from every other.
+    pub const NOWHERE: Self =
+        Self { position: Vector3::new(f64::INFINITY, 0.0, 0.0), rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0) };
+
+    /// Most that a point of the one body within `reach` of its centre can be away from where it was `then`, m.
+    #[inline]
+    pub fn moved_since(&self, then: &Self, reach: f64) -> f64 {
+        // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
+        let turned = (3.0 - then.rotation.dot(&self.rotation)).max(0.0).sqrt();
+        (self.position - then.position).norm() + turned * reach
+    }
 }
