@@ -3,9 +3,9 @@
 use super::body::{BodyConstants, Outline};
 use super::law::PairLaw;
 use super::pairs::{BodyPair, PairWatch, Setting};
-use super::resolve::Place;
+use super::resolve::{Exchange, Place};
 use super::surface::Surface;
-use super::walls::{Boundary, WallList};
+use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::{DampingMass, Scene};
 use crate::shapes::{SurfaceMesh, TabletShape};
 use crate::world::{Motion, World};
@@ -17,6 +17,9 @@ use rayon::prelude::*;
 const SKIN: f64 = 0.03;
 /// Pairs that one task takes: a fixed number, so that results do not depend on the number of threads.
 const CHUNK: usize = 512;
+
+/// Watches, their lists and what of them touches.
+type Task<'a, Watch, List> = ((&'a mut [Watch], &'a mut [List]), &'a mut Vec<(u32, u32, Exchange)>);
 
 /// Force and torque on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +74,13 @@ pub struct ContactField {
     #[expect(clippy::vec_box, reason = "lists are large and change places at every search")]
     pairs: Vec<Box<BodyPair>>,
     boundaries: Vec<Boundary>,
+    wall_watches: Vec<WallWatch>,
+    /// The lists of `wall_watches`, in the same order.
     walls: Vec<WallList>,
+    /// What touched in the last step, by task: bodies a and b.
+    touching: Vec<Vec<(u32, u32, Exchange)>>,
+    /// Likewise body and surface.
+    touching_walls: Vec<Vec<(u32, u32, Exchange)>>,
     /// Torque on each surface about its own origin in the last step, N m.
     surface_torques: Vec<Vector3<f64>>,
 }
@@ -96,7 +105,10 @@ impl ContactField {
             watches: Vec::new(),
             pairs: Vec::new(),
             boundaries: Vec::new(),
+            wall_watches: Vec::new(),
             walls: Vec::new(),
+            touching: Vec::new(),
+            touching_walls: Vec::new(),
             surface_torques: Vec::new(),
         }
     }
@@ -109,7 +121,8 @@ impl ContactField {
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
         let surfaces = self.boundaries.len() as u32;
-        self.walls.extend((0..surfaces).map(|surface| WallList::new(body, surface)));
+        self.wall_watches.extend((0..surfaces).map(|surface| WallWatch::new(body, surface)));
+        self.walls.resize(self.wall_watches.len(), WallList::new());
     }
 
     /// Adds a triangle surface, which the world knows as `index`; must come before the bodies. `carrier`: the surface
@@ -166,81 +179,78 @@ impl ContactField {
             dt,
         };
         let boundaries = &self.boundaries;
-        let pairs = |(watches, pairs): (&mut [PairWatch], &mut [Box<BodyPair>])| {
+        let facets = |surface: &Boundary, min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
+            world.facets_near(surface.mesh, min, max, out);
+        };
+        let pairs = |((watches, pairs), touching): Task<'_, PairWatch, Box<BodyPair>>| {
             let (mut near, mut places) = (Vec::new(), Vec::<Place>::new());
+            touching.clear();
             let mut rebuilt = 0;
-            for (watch, pair) in watches.iter_mut().zip(pairs) {
-                if watch.due(setting.odometers) {
-                    rebuilt += u32::from(pair.refresh(watch, &setting, &mut near));
-                }
-                if watch.alert(setting.odometers) {
-                    pair.evaluate(watch, &setting, &mut places);
-                }
+            let alert = watches.iter_mut().zip(pairs).filter(|(w, _)| w.alert(setting.odometers));
+            for (watch, pair) in alert {
+                rebuilt += u32::from(pair.refresh(watch, &setting, &mut near));
+                let exchange = pair.evaluate(watch, &setting, &mut places);
+                touching.extend(exchange.map(|e| (watch.a, watch.b, e)));
             }
             rebuilt
         };
-        let walls = |chunk: &mut [WallList]| {
+        let walls = |((watches, walls), touching): Task<'_, WallWatch, WallList>| {
             let (mut near, mut places) = (Vec::new(), Vec::<Place>::new());
-            for wall in chunk {
-                let boundary = &boundaries[wall.surface as usize];
-                let facets = |min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
-                    world.facets_near(boundary.mesh, min, max, out);
-                };
-                wall.refresh(&setting, boundary, facets, &mut near);
-                wall.evaluate(&setting, boundary, &mut places);
+            touching.clear();
+            let alert = watches.iter_mut().zip(walls).filter(|(w, _)| w.alert(setting.odometers));
+            for (watch, wall) in alert {
+                let boundary = &boundaries[watch.surface as usize];
+                wall.refresh(watch, &setting, boundary, facets, &mut near);
+                let exchange = wall.evaluate(watch, &setting, boundary, &mut places);
+                touching.extend(exchange.map(|e| (watch.body, watch.surface, e)));
             }
         };
-        let mut tally = Tally::default();
-        if rayon::current_num_threads() > 1 {
-            let (rebuilt, ()) = rayon::join(
-                || {
-                    let watches = self.watches.par_chunks_mut(CHUNK);
-                    watches.zip(self.pairs.par_chunks_mut(CHUNK)).map(pairs).sum::<u32>()
-                },
-                || self.walls.par_chunks_mut(CHUNK).for_each(walls),
-            );
-            tally.rebuilt = rebuilt;
-        } else {
-            tally.rebuilt = pairs((&mut self.watches, &mut self.pairs));
-            walls(&mut self.walls);
-        }
-        self.gather(wrenches, &mut tally);
-        tally
+        self.touching.resize_with(self.watches.len().div_ceil(CHUNK), Vec::new);
+        self.touching_walls.resize_with(self.walls.len().div_ceil(CHUNK), Vec::new);
+        let pair_lists = self.watches.par_chunks_mut(CHUNK).zip(self.pairs.par_chunks_mut(CHUNK));
+        let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
+        let (rebuilt, ()) = rayon::join(
+            || pair_lists.zip(&mut self.touching).map(pairs).sum::<u32>(),
+            || wall_lists.zip(&mut self.touching_walls).for_each(walls),
+        );
+        self.gather(rebuilt, wrenches)
     }
 
-    /// Sums over lists in their order: the same bits for any number of threads.
-    fn gather(&mut self, wrenches: &mut [Wrench], tally: &mut Tally) {
+    /// Sums over what touches in the order of the lists: the same bits for any number of threads.
+    fn gather(&mut self, rebuilt: u32, wrenches: &mut [Wrench]) -> Tally {
+        let mut tally = Tally { rebuilt, ..Tally::default() };
         for torque in &mut self.surface_torques {
             *torque = Vector3::zeros();
         }
-        for wall in self.walls.iter().filter(|w| w.exchange.contacts > 0) {
-            let body = &mut wrenches[wall.body as usize];
-            body.force -= wall.exchange.force;
-            body.torque += wall.exchange.torque_a;
-            self.surface_torques[wall.surface as usize] += wall.exchange.torque_b;
-            tally.wall_contacts += wall.exchange.contacts;
-            tally.deepest = tally.deepest.max(wall.exchange.deepest);
+        for (body, surface, exchange) in self.touching_walls.iter().flatten() {
+            let body = &mut wrenches[*body as usize];
+            body.force -= exchange.force;
+            body.torque += exchange.torque_a;
+            self.surface_torques[*surface as usize] += exchange.torque_b;
+            tally.wall_contacts += exchange.contacts;
+            tally.deepest = tally.deepest.max(exchange.deepest);
         }
-        for (watch, pair) in self.watches.iter().zip(&self.pairs).filter(|(w, _)| w.contacts > 0) {
-            let a = &mut wrenches[watch.a as usize];
-            a.force -= pair.exchange.force;
-            a.torque += pair.exchange.torque_a;
-            let b = &mut wrenches[watch.b as usize];
-            b.force += pair.exchange.force;
-            b.torque += pair.exchange.torque_b;
-            tally.sphere_contacts += watch.contacts;
-            tally.deepest = tally.deepest.max(pair.exchange.deepest);
+        for (a, b, exchange) in self.touching.iter().flatten() {
+            let a = &mut wrenches[*a as usize];
+            a.force -= exchange.force;
+            a.torque += exchange.torque_a;
+            let b = &mut wrenches[*b as usize];
+            b.force += exchange.force;
+            b.torque += exchange.torque_b;
+            tally.sphere_contacts += exchange.contacts;
+            tally.deepest = tally.deepest.max(exchange.deepest);
         }
+        tally
     }
 
     /// The deepest contact of the last step: its body, and the other body or the surface.
     pub fn deepest(&self) -> Option<(usize, Partner)> {
-        let pairs = self.watches.iter().zip(&self.pairs).filter(|(watch, _)| watch.contacts > 0);
-        let pairs = pairs.map(|(w, p)| (p.exchange.deepest, w.a as usize, Partner::Body(w.b as usize)));
-        let walls = self.walls.iter().filter(|w| w.exchange.contacts > 0);
-        let walls =
-            walls.map(|w| (w.exchange.deepest, w.body as usize, Partner::Surface(w.surface as usize)));
-        pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, body, partner)| (body, partner))
+        let pairs = self.touching.iter().flatten();
+        let pairs = pairs.map(|(a, b, e)| (e.deepest, *a, Partner::Body(*b as usize)));
+        let walls = self.touching_walls.iter().flatten();
+        let walls = walls.map(|(body, s, e)| (e.deepest, *body, Partner::Surface(*s as usize)));
+        let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
+        deepest.map(|(_, body, partner)| (body as usize, partner))
     }
 
     /// Torque of the bodies on a surface about the surface's origin in the last step, N m.
@@ -254,8 +264,8 @@ impl ContactField {
             let touching = p.links.iter().filter(|l| l.touching);
             touching.map(|l| (w.a, w.b, u32::from(l.i), u32::from(l.j), l.spring.stretch))
         });
-        let walls = self.walls.iter().flat_map(|w| {
-            let touching = w.grips.iter().filter(|g| g.touching);
+        let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
+            let touching = list.grips.iter().filter(|g| g.touching);
             touching.map(|g| (w.body, w.surface, u32::from(g.sphere), g.patch, g.spring.stretch))
         });
         pairs.chain(walls)

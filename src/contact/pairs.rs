@@ -38,12 +38,8 @@ pub(super) struct PairWatch {
     /// Bodies, `a < b`.
     pub a: u32,
     pub b: u32,
-    /// Sum of the odometers up to which nothing needs a look, m.
-    mark: f64,
-    /// Sum of the odometers up to which nothing in the list can touch, m.
+    /// Sum of the odometers up to which the list is complete and nothing in it can touch, m.
     quiet: f64,
-    /// Sphere pairs that touch.
-    pub contacts: u32,
 }
 
 /// The list of two bodies.
@@ -51,7 +47,8 @@ pub(super) struct PairWatch {
 pub(super) struct BodyPair {
     /// Sorted by (i, j).
     pub links: SmallVec<[Link; 4]>,
-    pub exchange: Exchange,
+    /// Sum of the odometers up to which the list is complete, m.
+    mark: f64,
     listed: Lease,
     /// Sphere pairs that were near when they were `sought`; sorted.
     candidates: Vec<(u16, u16)>,
@@ -97,23 +94,17 @@ impl Setting<'_> {
 const WIDE: f64 = 5.0;
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
-        Self { a, b, mark: f64::NEG_INFINITY, quiet: f64::NEG_INFINITY, contacts: 0 }
+        Self { a, b, quiet: f64::NEG_INFINITY }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
         (self.a, self.b)
     }
 
-    /// Whether the list may no longer hold all that touches.
-    #[inline]
-    pub(super) fn due(&self, odometers: &[f64]) -> bool {
-        self.travelled(odometers) > self.mark
-    }
-
-    /// Whether something in the list may touch, or did.
+    /// Whether the pair needs work: its list may lack something, or something in it may touch.
     #[inline]
     pub(super) fn alert(&self, odometers: &[f64]) -> bool {
-        self.contacts > 0 || self.travelled(odometers) > self.quiet
+        self.travelled(odometers) > self.quiet
     }
 
     #[inline]
@@ -126,7 +117,7 @@ impl BodyPair {
     pub(super) fn new() -> Self {
         Self {
             links: SmallVec::new(),
-            exchange: Exchange::default(),
+            mark: f64::NEG_INFINITY,
             listed: Lease::NONE,
             candidates: Vec::new(),
             sought: Lease::NONE,
@@ -134,19 +125,23 @@ impl BodyPair {
     }
 
     /// Makes sure that every sphere pair that touches is in the list. True if the list was built anew.
+    #[inline]
     pub(super) fn refresh(
         &mut self,
-        watch: &mut PairWatch,
+        watch: &PairWatch,
         setting: &Setting<'_>,
         near: &mut Vec<(u16, Vector3<f64>)>,
     ) -> bool {
-        let (a, b) = (watch.a as usize, watch.b as usize);
         let travelled = watch.travelled(setting.odometers);
+        if travelled <= self.mark {
+            return false;
+        }
+        let (a, b) = (watch.a as usize, watch.b as usize);
         let now = setting.motions[b].seen_from(&setting.motions[a]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
         let left = self.listed.left(&now, ob.reach);
         if self.listed.holds(left) {
-            watch.mark = travelled + left;
+            self.mark = travelled + left;
             return false;
         }
         if self.sought.left(&now, ob.reach) < setting.skin {
@@ -155,8 +150,7 @@ impl BodyPair {
         // What is no candidate has at least this gap.
         self.listed = Lease { at: now, allowance: self.sought.left(&now, ob.reach) };
         self.list(oa, ob, setting.skin, travelled);
-        watch.mark = travelled + self.listed.allowance;
-        watch.quiet = f64::NEG_INFINITY;
+        self.mark = travelled + self.listed.allowance;
         true
     }
 
@@ -225,9 +219,14 @@ impl BodyPair {
         }
     }
 
-    /// Forces of this step, left in `exchange`.
+    /// Forces of this step, if anything touches.
     #[inline]
-    pub(super) fn evaluate(&mut self, watch: &mut PairWatch, setting: &Setting<'_>, places: &mut Vec<Place>) {
+    pub(super) fn evaluate(
+        &mut self,
+        watch: &mut PairWatch,
+        setting: &Setting<'_>,
+        places: &mut Vec<Place>,
+    ) -> Option<Exchange> {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let (ca, cb) = (&setting.bodies[a], &setting.bodies[b]);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
@@ -236,7 +235,7 @@ impl BodyPair {
         places.clear();
         let mut deepest: f64 = 0.0;
         let travelled = watch.travelled(setting.odometers);
-        watch.quiet = f64::INFINITY;
+        watch.quiet = self.mark;
         for (k, link) in self.links.iter_mut().enumerate() {
             if travelled < link.until {
                 watch.quiet = watch.quiet.min(link.until);
@@ -276,13 +275,13 @@ impl BodyPair {
                 velocity: mb.velocity_at(&arm_b) - ma.velocity_at(&arm_a),
             });
         }
-        watch.contacts = places.len() as u32;
         if places.is_empty() {
-            return;
+            return None;
         }
+        watch.quiet = f64::NEG_INFINITY;
         let law = setting.law(ca.material, cb.material);
         let sides = (setting.partner(a), setting.partner(b));
-        self.exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.links);
-        self.exchange.deepest = deepest;
+        let exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.links);
+        Some(Exchange { deepest, ..exchange })
     }
 }

@@ -34,8 +34,6 @@ impl Remembers for Grip {
 /// One body against one surface.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WallList {
-    pub body: u32,
-    pub surface: u32,
     /// Sorted by (sphere, patch).
     pub grips: Vec<Grip>,
     facets: Vec<u32>,
@@ -44,7 +42,27 @@ pub(super) struct WallList {
     candidates: Vec<(u16, u32)>,
     sought: Lease,
     mark: f64,
-    pub exchange: Exchange,
+}
+
+/// What is read of every body and surface in every step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct WallWatch {
+    pub body: u32,
+    pub surface: u32,
+    /// Odometer up to which the list is complete and empty, m.
+    quiet: f64,
+}
+
+impl WallWatch {
+    pub(super) fn new(body: u32, surface: u32) -> Self {
+        Self { body, surface, quiet: f64::NEG_INFINITY }
+    }
+
+    /// Whether the list needs work.
+    #[inline]
+    pub(super) fn alert(&self, odometers: &[f64]) -> bool {
+        odometers[self.body as usize] > self.quiet
+    }
 }
 
 /// A surface with its motion.
@@ -66,17 +84,14 @@ const WIDE: f64 = 4.0;
 const LOOKOUT: f64 = 16.0;
 
 impl WallList {
-    pub(super) fn new(body: u32, surface: u32) -> Self {
+    pub(super) fn new() -> Self {
         Self {
-            body,
-            surface,
             grips: Vec::new(),
             facets: Vec::new(),
             listed: Lease::NONE,
             candidates: Vec::new(),
             sought: Lease::NONE,
             mark: f64::NEG_INFINITY,
-            exchange: Exchange::default(),
         }
     }
 
@@ -85,17 +100,19 @@ impl WallList {
     #[inline]
     pub(super) fn refresh(
         &mut self,
+        watch: &mut WallWatch,
         setting: &Setting<'_>,
         boundary: &Boundary,
-        facets_near: impl Fn(&Vector3<f64>, &Vector3<f64>, &mut Vec<u32>),
+        facets_near: impl Fn(&Boundary, &Vector3<f64>, &Vector3<f64>, &mut Vec<u32>),
         scratch: &mut Vec<u32>,
     ) {
-        let travelled = setting.odometers[self.body as usize];
+        let body = watch.body as usize;
+        let travelled = setting.odometers[body];
         if boundary.carrier && travelled <= self.mark {
             return;
         }
-        let now = setting.motions[self.body as usize].seen_from(&boundary.motion);
-        let outline = &setting.outlines[setting.bodies[self.body as usize].shape];
+        let now = setting.motions[body].seen_from(&boundary.motion);
+        let outline = &setting.outlines[setting.bodies[body].shape];
         let left = self.listed.left(&now, outline.reach);
         if self.listed.holds(left) {
             self.mark = travelled + left;
@@ -105,7 +122,7 @@ impl WallList {
             scratch.clear();
             if let Surface::Mesh(_) = &boundary.surface {
                 let reach = Vector3::repeat(outline.bounding_radius + LOOKOUT * setting.skin);
-                facets_near(&(now.position - reach), &(now.position + reach), scratch);
+                facets_near(boundary, &(now.position - reach), &(now.position + reach), scratch);
             } else {
                 scratch.push(0);
             }
@@ -180,15 +197,23 @@ impl WallList {
         self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
     }
 
-    /// Forces of this step, left in `exchange`.
+    /// Forces of this step, if anything touches.
     #[inline]
-    pub(super) fn evaluate(&mut self, setting: &Setting<'_>, boundary: &Boundary, places: &mut Vec<Place>) {
-        self.exchange.contacts = 0;
+    pub(super) fn evaluate(
+        &mut self,
+        watch: &mut WallWatch,
+        setting: &Setting<'_>,
+        boundary: &Boundary,
+        places: &mut Vec<Place>,
+    ) -> Option<Exchange> {
         if self.grips.is_empty() {
-            return;
+            watch.quiet = if boundary.carrier { self.mark } else { f64::NEG_INFINITY };
+            return None;
         }
-        let constants = &setting.bodies[self.body as usize];
-        let motion = &setting.motions[self.body as usize];
+        watch.quiet = f64::NEG_INFINITY;
+        let body = watch.body as usize;
+        let constants = &setting.bodies[body];
+        let motion = &setting.motions[body];
         let spheres = &setting.outlines[constants.shape].spheres;
         let surface = &boundary.motion;
         let between = motion.position - surface.position;
@@ -229,14 +254,14 @@ impl WallList {
             first = last;
         }
         if places.is_empty() {
-            return;
+            return None;
         }
         let law = setting.law(constants.material, boundary.material);
         let inverse_inertia = Vector3::zeros();
         let wall = Partner { motion: surface, inverse_mass: 0.0, inverse_inertia, softness: 0.0 };
-        let sides = (setting.partner(self.body as usize), wall);
-        self.exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.grips);
-        self.exchange.deepest = deepest;
+        let sides = (setting.partner(body), wall);
+        let exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.grips);
+        Some(Exchange { deepest, ..exchange })
     }
 
     /// Whether another patch of the same sphere already feels this place: the place lies on a border with that patch,

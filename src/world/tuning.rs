@@ -10,7 +10,7 @@ pub(super) const LENGTH_UNIT: f32 = 0.01;
 pub(super) const HORIZON: f64 = 8e-3;
 
 /// Least and most margin of a body, as a share of its bounding radius.
-pub(super) const MARGIN: (f64, f64) = (0.1, 1.0);
+pub(super) const MARGIN: (f64, f64) = (0.05, 1.0);
 
 /// Bodies that have used this share of their margin are searched together with those that have used it all.
 pub(super) const EARLY: f64 = 0.4;
