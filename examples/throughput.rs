@@ -2,11 +2,12 @@
 //!
 //! `cargo run --release --example throughput -- peers50 --seconds 1`
 //!
-//! Cases: `peers20`, `peers50`, `peers100`, 770 round tablets of so many spheres in a plain drum of 200 mm, and
+//! Cases: `round`, the embedded scene with its spray; `peers20`, `peers50`, `peers100`, 770 round tablets of so many spheres in a plain drum of 200 mm, and
 //! `spheres`, 770 spheres in the same drum, from the start states in `scenes/peers`; `--dt` sets another step, s.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use nalgebra::{UnitQuaternion, Vector3};
+use pancoat::observers::{BedSurface, Coater, Observer};
 use pancoat::scene::{
     ContactSettings, Drum, FreeBody, Material, Outputs, PairProperties, PairTable, Recipe, Scene, Settle,
     Shape, StepChoice, Time,
@@ -28,13 +29,25 @@ fn main() {
         }
     }
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().expect("the first pool");
-    let scene = peers(&case, dt);
+    let scene = if case == "round" { round(dt) } else { peers(&case, dt) };
     let mut simulation = Simulation::new(&scene).expect("the scene is built");
+    simulation.fill(&mut |_| true).expect("the pan is filled");
+    simulation.settle(&mut |_| true).expect("the bed settles");
+    let mut coater = scene.spray.as_ref().map(|spray| {
+        let positions: Vec<_> = simulation.states().iter().map(|state| state.position).collect();
+        let bed = BedSurface::fit(&positions, 6.3e-3).expect("a bed");
+        let (shapes, kinds) = (simulation.shapes(), simulation.body_shapes());
+        Coater::new(shapes, kinds, spray, bed.zone(spray), simulation.drum()).expect("a coater")
+    });
     let mut run = |seconds: f64| {
         let frames = (seconds / scene.time.frame_interval).round() as u64;
         let (cpu, wall, before) =
             (cpu_seconds(), std::time::Instant::now(), simulation.stopwatch().seconds());
-        simulation.run(0, frames, &mut [], &mut |_| true).expect("it runs");
+        {
+            let mut observers: Vec<&mut dyn Observer> = Vec::new();
+            observers.extend(coater.as_mut().map(|c| c as &mut dyn Observer));
+            simulation.run(0, frames, &mut observers, &mut |_| true)
+        }.expect("it runs");
         let phases = simulation.stopwatch().seconds().into_iter().zip(before);
         let phases: serde_json::Map<_, _> =
             phases.map(|((name, s), (_, b))| (name.to_owned(), ((s - b) / seconds).into())).collect();
@@ -51,8 +64,15 @@ fn main() {
             "state_hash": simulation.state_hash(),
         })
     };
-    run(0.2); // the start states are at rest or rebounding
     println!("{}", run(seconds));
+}
+
+fn round(dt: Option<f64>) -> Scene {
+    let mut scene = Scene::embedded("round").expect("the embedded scene");
+    if let Some(dt) = dt {
+        scene.time.step = StepChoice::Fixed(dt);
+    }
+    scene
 }
 
 fn peers(case: &str, dt: Option<f64>) -> Scene {
@@ -111,7 +131,7 @@ fn peers(case: &str, dt: Option<f64>) -> Scene {
         time: Time {
             step: StepChoice::Fixed(dt.unwrap_or(step)),
             impact_speed: 0.3,
-            settle: Settle::For(0.0),
+            settle: Settle::For(0.2),
             duration: 1.0,
             frame_interval: 0.02,
         },
