@@ -1,6 +1,7 @@
 //! What contact knows of each body beside its motion.
 
 use crate::shapes::{Clump, Sphere};
+use crate::world::Relative;
 use nalgebra::Vector3;
 
 /// A clump prepared for list building.
@@ -31,6 +32,19 @@ impl Outline {
             min,
             max,
         }
+    }
+
+    /// At most the gap between this body and another one seen from it, m: what its bounding spheres leave, or the best
+    /// of six separating planes along the axes of the two bodies' boxes.
+    pub(super) fn apart(&self, other: &Self, at: &Relative) -> f64 {
+        let half = |o: &Self| (o.max - o.min) * 0.5;
+        let middle = |o: &Self| (o.max + o.min) * 0.5;
+        let between = at.position + at.rotation * middle(other) - middle(self);
+        let turned = at.rotation.abs();
+        let mine = between.abs() - half(self) - turned * half(other);
+        let theirs = at.rotation.tr_mul(&between).abs() - half(other) - turned.tr_mul(&half(self));
+        let balls = at.position.norm() - self.bounding_radius - other.bounding_radius;
+        balls.max(mine.max()).max(theirs.max())
     }
 
     /// Whether a sphere of the given centre (body axes) and radius comes closer than `margin` to the box.

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 /// Lists keep sphere pairs with a gap below this share of the largest bounding radius. Small skins are used up quickly
 /// and lists are rebuilt often; large ones hold many pairs that do not touch.
-const SKIN: f64 = 0.03;
+const SKIN: f64 = 0.02;
 /// Pairs that one task takes: a fixed number, so that results do not depend on the number of threads.
 const CHUNK: usize = 512;
 

@@ -33,6 +33,8 @@ pub struct PairLaw {
     pub no_tension: bool,
     /// How the tangential spring follows the overlap.
     pub tangential: TangentialLaw,
+    /// 2 √(5/6) β √(2 E*) and 2 √(5/6) β √(8 G*), Pa^½: dashpots per √(contact radius × mass).
+    dashpots: Dashpots,
 }
 
 /// Tangential memory of a contact.
@@ -93,10 +95,17 @@ impl PairLaw {
     pub fn new(a: &Material, b: &Material, pair: PairProperties, settings: ContactSettings) -> Self {
         let compliance = |m: &Material| (1.0 - m.poisson) / (2.0 * m.shear_modulus);
         let shear = |m: &Material| (2.0 - m.poisson) / m.shear_modulus;
+        let (effective_modulus, effective_shear) =
+            (1.0 / (compliance(a) + compliance(b)), 1.0 / (shear(a) + shear(b)));
+        let damping = damping_ratio(pair.restitution);
         Self {
-            effective_modulus: 1.0 / (compliance(a) + compliance(b)),
-            effective_shear: 1.0 / (shear(a) + shear(b)),
-            damping: damping_ratio(pair.restitution),
+            effective_modulus,
+            effective_shear,
+            damping,
+            dashpots: Dashpots {
+                normal: DASHPOT * damping * (2.0 * effective_modulus).sqrt(),
+                tangential: DASHPOT * damping * (8.0 * effective_shear).sqrt(),
+            },
             friction: pair.friction,
             no_tension: settings.no_tension,
             tangential: settings.tangential,
@@ -118,11 +127,8 @@ impl PairLaw {
     /// Dashpots for the reduced mass `mass`, kg.
     #[inline]
     pub fn dashpots(&self, contact_radius: f64, mass: f64) -> Dashpots {
-        let root = DASHPOT * self.damping * (contact_radius * mass).sqrt();
-        Dashpots {
-            normal: root * (2.0 * self.effective_modulus).sqrt(),
-            tangential: root * (8.0 * self.effective_shear).sqrt(),
-        }
+        let root = (contact_radius * mass).sqrt();
+        Dashpots { normal: root * self.dashpots.normal, tangential: root * self.dashpots.tangential }
     }
 
     /// Dashpots proportional to the stiffnesses so that a motion of angular frequency `omega`, rad/s, is damped by β.

@@ -91,7 +91,7 @@ impl Setting<'_> {
 }
 
 /// Skin of the candidates, in skins: they are found anew so many times more rarely than lists are.
-const WIDE: f64 = 5.0;
+const WIDE: f64 = 6.0;
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
         Self { a, b, quiet: f64::NEG_INFINITY }
@@ -164,7 +164,7 @@ impl BodyPair {
         near: &mut Vec<(u16, Vector3<f64>)>,
     ) {
         let Relative { position, rotation } = at;
-        let apart = position.norm() - oa.bounding_radius - ob.bounding_radius;
+        let apart = oa.apart(ob, &at);
         self.sought = Lease { at, allowance: width.max(apart) };
         self.candidates.clear();
         near.clear();

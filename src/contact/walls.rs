@@ -22,6 +22,8 @@ pub(super) struct Grip {
     /// The patch's facets near the sphere: a range of [`WallList::facets`].
     facets: (u32, u32),
     pub touching: bool,
+    /// Odometer up to which the sphere cannot touch the patch, m: known of a surface that odometers measure against.
+    until: f64,
     pub spring: Spring,
 }
 
@@ -79,9 +81,9 @@ pub(super) struct Boundary {
 }
 
 /// Skin of the candidates, in skins.
-const WIDE: f64 = 4.0;
+const WIDE: f64 = 6.0;
 /// How far a body that has no candidate looks for walls, in skins: one far from all of them rests long.
-const LOOKOUT: f64 = 16.0;
+const LOOKOUT: f64 = 24.0;
 
 impl WallList {
     pub(super) fn new() -> Self {
@@ -192,7 +194,7 @@ impl WallList {
             }
             let known = memory.next_if(|g| (g.sphere, g.patch) == (sphere, patch));
             let (touching, spring) = known.map_or_else(Default::default, |g| (true, g.spring));
-            self.grips.push(Grip { sphere, patch, facets, touching, spring });
+            self.grips.push(Grip { sphere, patch, facets, touching, until: f64::NEG_INFINITY, spring });
         }
         self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
     }
@@ -217,21 +219,32 @@ impl WallList {
         let spheres = &setting.outlines[constants.shape].spheres;
         let surface = &boundary.motion;
         let between = motion.position - surface.position;
+        let travelled = setting.odometers[body];
         places.clear();
         let mut deepest: f64 = 0.0;
         let mut first = 0;
         while first < self.grips.len() {
             let i = self.grips[first].sphere;
             let last = first + self.grips[first..].iter().take_while(|g| g.sphere == i).count();
+            if self.grips[first..last].iter().all(|g| travelled < g.until) {
+                first = last;
+                continue;
+            }
             let sphere = &spheres[i as usize];
             let arm = motion.rotation * sphere.center;
             let local = surface.rotation.tr_mul(&(between + arm));
             let start = places.len();
             for k in first..last {
                 let grip = &self.grips[k];
+                if travelled < grip.until {
+                    continue;
+                }
                 let (from, to) = grip.facets;
                 let nearest = boundary.surface.nearest(&local, &self.facets[from as usize..to as usize]);
                 let overlap = sphere.radius - nearest.distance;
+                if overlap <= 0.0 && boundary.carrier {
+                    self.grips[k].until = travelled - overlap;
+                }
                 if overlap <= 0.0 || self.taken(&nearest, first..last, k, &local, boundary) {
                     continue;
                 }
