@@ -39,32 +39,27 @@ fn main() {
         let (shapes, kinds) = (simulation.shapes(), simulation.body_shapes());
         Coater::new(shapes, kinds, spray, bed.zone(spray), simulation.drum()).expect("a coater")
     });
-    let mut run = |seconds: f64| {
-        let frames = (seconds / scene.time.frame_interval).round() as u64;
-        let (cpu, wall, before) =
-            (cpu_seconds(), std::time::Instant::now(), simulation.stopwatch().seconds());
-        {
-            let mut observers: Vec<&mut dyn Observer> = Vec::new();
-            observers.extend(coater.as_mut().map(|c| c as &mut dyn Observer));
-            simulation.run(0, frames, &mut observers, &mut |_| true)
-        }.expect("it runs");
-        let phases = simulation.stopwatch().seconds().into_iter().zip(before);
-        let phases: serde_json::Map<_, _> =
-            phases.map(|((name, s), (_, b))| (name.to_owned(), ((s - b) / seconds).into())).collect();
-        serde_json::json!({
-            "case": case,
-            "tablets": simulation.body_shapes().len(),
-            "spheres_per_tablet": simulation.shapes()[0].clump.spheres.len(),
-            "step_s": simulation.time_step().step,
-            "threads": threads,
-            "simulated_s": seconds,
-            "cpu_s_per_simulated_s": (cpu_seconds() - cpu) / seconds,
-            "wall_s_per_simulated_s": wall.elapsed().as_secs_f64() / seconds,
-            "phases": phases,
-            "state_hash": simulation.state_hash(),
-        })
-    };
-    println!("{}", run(seconds));
+    let frames = (seconds / scene.time.frame_interval).round() as u64;
+    let (cpu, wall, before) = (cpu_seconds(), std::time::Instant::now(), simulation.stopwatch().seconds());
+    let mut observers: Vec<&mut dyn Observer> =
+        coater.iter_mut().map(|coater| coater as &mut dyn Observer).collect();
+    simulation.run(0, frames, &mut observers, &mut |_| true).expect("it runs");
+    let phases = simulation.stopwatch().seconds().into_iter().zip(before);
+    let phases: serde_json::Map<_, _> =
+        phases.map(|((name, s), (_, b))| (name.to_owned(), ((s - b) / seconds).into())).collect();
+    let line = serde_json::json!({
+        "case": case,
+        "tablets": simulation.body_shapes().len(),
+        "spheres_per_tablet": simulation.shapes()[0].clump.spheres.len(),
+        "step_s": simulation.time_step().step,
+        "threads": threads,
+        "simulated_s": seconds,
+        "cpu_s_per_simulated_s": (cpu_seconds() - cpu) / seconds,
+        "wall_s_per_simulated_s": wall.elapsed().as_secs_f64() / seconds,
+        "phases": phases,
+        "state_hash": simulation.state_hash(),
+    });
+    println!("{line}");
 }
 
 fn round(dt: Option<f64>) -> Scene {

@@ -3,7 +3,8 @@
 use super::args::CheckArgs;
 use super::depth::{PACKING, bed_depth, column_mass, static_overlap};
 use super::failure::Failure;
-use super::{guards, print_line};
+use super::watch::clock;
+use super::{guards, pace, print_line};
 use crate::contact::PairLaw;
 use crate::scene::{Aim, Scene, Settle};
 use crate::shapes::TabletShape;
@@ -106,6 +107,12 @@ fn numbers(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> Vec<Line> 
         lines.push(("static overlap", format!("{:.1} % of a sphere's radius", 100.0 * overlap)));
     }
     lines.push(("steps", format!("at most {steps:.2e}")));
+    let pace = pace::seconds_per_second(scene, shapes, step.step);
+    let coated = pace * scene.time.duration;
+    lines.push((
+        "run time",
+        format!("{pace:.2} s of work a simulated second, {} for the spray on one core", clock(coated)),
+    ));
     lines.push(("memory", format!("about {:.0} MB", memory(scene, shapes) / 1e6)));
     lines
 }

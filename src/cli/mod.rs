@@ -9,6 +9,7 @@ mod coating;
 mod depth;
 mod failure;
 mod guards;
+mod pace;
 mod run;
 mod scene_arg;
 mod watch;

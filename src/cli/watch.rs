@@ -151,7 +151,7 @@ impl Status {
 }
 
 /// Seconds as `m:ss` or `h:mm:ss`.
-fn clock(seconds: f64) -> String {
+pub(super) fn clock(seconds: f64) -> String {
     let s = seconds.max(0.0).round() as u64;
     match s / 3600 {
         0 => format!("{}:{:02}", s / 60, s % 60),

@@ -52,6 +52,9 @@ impl Simulation {
         let Some(drum) = self.scene.drum.clone() else { return Ok(()) };
         let mut waiting = self.waiting();
         let wanted = waiting.len();
+        if wanted == 0 {
+            return Ok(());
+        }
         let radius = self.largest_bounding_radius();
         let sites = sites(&drum, radius);
         let mut idle = 0;

@@ -116,7 +116,10 @@ impl World {
             .iter()
             .map(|s| (Pose::from_translation(to_f32(&s.center)), SharedShape::ball(s.radius as f32)));
         let properties = MassProperties::new(Vec3::ZERO, mass as f32, to_f32(inertia));
-        let body = RigidBodyBuilder::dynamic().pose(pose(&motion.seen_from(&Motion::at_rest()))).sleeping(true).user_data(index as u128);
+        let body = RigidBodyBuilder::dynamic()
+            .pose(pose(&motion.seen_from(&Motion::at_rest())))
+            .sleeping(true)
+            .user_data(index as u128);
         let handle = self.bodies.insert(body);
         let collider = ColliderBuilder::new(SharedShape::compound(balls.collect()))
             .mass_properties(properties)

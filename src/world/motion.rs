@@ -54,8 +54,10 @@ pub struct Relative {
 
 impl Relative {
     /// No pose: infinitely far from every other.
-    pub const NOWHERE: Self =
-        Self { position: Vector3::new(f64::INFINITY, 0.0, 0.0), rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0) };
+    pub const NOWHERE: Self = Self {
+        position: Vector3::new(f64::INFINITY, 0.0, 0.0),
+        rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+    };
 
     /// Most that a point of the one body within `reach` of its centre can be away from where it was `then`, m.
     #[inline]
