@@ -1,14 +1,12 @@
 //! The report page, opened in a real browser.
-//!
-//! Needs Chromium (`apt-get install chromium`). Without one the browser test says so and checks the file only; set
-//! `REQUIRE_CHROMIUM=1` where its absence is a fault.
+
+#[path = "support/browser.rs"]
+mod browser;
 
 use pancoat::models::{Asymptote, SeriesRow};
 use pancoat::report::{
     Exponent, Limit, Quantity, ReportData, RunDir, ShapeCoating, TabletRow, ThicknessMap, page, vtp,
 };
-use std::path::Path;
-use std::process::Command;
 
 /// An ellipsoid of panels in rings, thicker on its caps.
 fn ellipsoid(rings: u32, around: u32) -> ThicknessMap {
@@ -141,40 +139,12 @@ fn sample() -> ReportData {
     }
 }
 
-/// The page as a browser has it after its scripts have run.
-fn dump_dom(page: &Path, profile: &Path) -> Option<String> {
-    let output = Command::new("chromium")
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--enable-unsafe-swiftshader",
-            "--disable-quic",
-        ])
-        .args([
-            "--no-first-run",
-            "--disable-background-networking",
-            "--disable-component-update",
-            "--disable-sync",
-        ])
-        .arg(format!("--user-data-dir={}", profile.display()))
-        .args(["--window-size=1200,4200", "--virtual-time-budget=20000", "--dump-dom"])
-        .arg(format!("file://{}", page.display()))
-        .output()
-        .ok()?;
-    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
 #[test]
 fn a_browser_draws_every_chart_without_a_fault() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("report.html");
     std::fs::write(&file, page(&sample())).unwrap();
-    let Some(dom) = dump_dom(&file, &folder.path().join("profile")) else {
-        assert!(std::env::var_os("REQUIRE_CHROMIUM").is_none(), "no working chromium");
-        eprintln!("no chromium: the page was not opened");
-        return;
-    };
+    let Some(dom) = browser::dump_dom(&file) else { return };
     let head = &dom[..300];
     assert!(head.contains("data-charts=\"11\""), "{head}");
     assert!(!head.contains("data-fault"), "{head}");
@@ -266,5 +236,5 @@ fn an_empty_run_still_makes_a_page() {
 #[ignore = "writes the sample page into the folder PAGE_DIR, to look at"]
 fn write_the_sample_page() {
     let folder = std::env::var_os("PAGE_DIR").unwrap();
-    std::fs::write(Path::new(&folder).join("report.html"), page(&sample())).unwrap();
+    std::fs::write(std::path::Path::new(&folder).join("report.html"), page(&sample())).unwrap();
 }

@@ -23,6 +23,10 @@ pub(super) enum Command {
     Drum(DrumArgs),
     /// Make report.html of a run's folder anew
     Report(ReportArgs),
+    /// Say how uniform the tablets of a run can get, when, and how many to measure; also while it runs
+    Predict(PredictArgs),
+    /// Put runs side by side, or a run against terahertz scans of real tablets
+    Compare(CompareArgs),
 }
 
 #[derive(Debug, ClapArgs)]
@@ -66,6 +70,45 @@ pub(super) struct ReportArgs {
     /// Folder of a run
     #[arg(value_name = "DIR")]
     pub(super) directory: PathBuf,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct PredictArgs {
+    /// Folder of a run
+    #[arg(value_name = "DIR")]
+    pub(super) directory: PathBuf,
+    /// CoV to reach
+    #[arg(long, value_name = "COV", default_value = "0.1", value_parser = share)]
+    pub(super) target: f64,
+    /// Relative error that measured tablets are to have, at 95 % confidence
+    #[arg(long, value_name = "SHARE", default_value = "0.1", value_parser = share)]
+    pub(super) error: f64,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct CompareArgs {
+    /// Folders of runs
+    #[arg(value_name = "DIR", required = true)]
+    pub(super) directories: Vec<PathBuf>,
+    /// Scan of a tablet, a CSV table with the columns x, y, z, thickness (each with _mm, _um or _m) and reflectivity;
+    /// once for each tablet. The first run is compared
+    #[arg(long, value_name = "FILE")]
+    pub(super) thz: Vec<PathBuf>,
+    /// Least reflectivity of a point that counts
+    #[arg(long, value_name = "SHARE", default_value_t = crate::models::thz::ThzScan::CUT, requires = "thz", value_parser = share)]
+    pub(super) cut: f64,
+    /// Shape of the scanned tablets [default: the first of the run]
+    #[arg(long, value_name = "NAME", requires = "thz")]
+    pub(super) shape: Option<String>,
+    /// Page to write
+    #[arg(long, value_name = "FILE", default_value = "compare.html")]
+    pub(super) out: PathBuf,
+}
+
+/// A number above 0.
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().map_err(|_| "expected a number such as 0.1".to_owned())?;
+    if share > 0.0 && f64::is_finite(share) { Ok(share) } else { Err("must be above 0".to_owned()) }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {

@@ -16,8 +16,9 @@ use std::collections::BTreeMap;
 
 /// Shortest block of time for the estimate of the limit, s: longer than a tablet takes round the bed.
 const SHORTEST_BLOCK: f64 = 2.0;
-/// Most blocks; each keeps a count for every panel of every tablet.
-const MOST_BLOCKS: u64 = 10;
+/// Most blocks, an even number; each keeps a count for every panel of every tablet. Then pairs become one, and blocks are
+/// twice as long from there on: the limit is known early, and long runs have long blocks.
+const MOST_BLOCKS: usize = 10;
 /// A tablet that a shadow hides for so long has not left the spray, s.
 const SHADOW: f64 = 0.1;
 /// CoV_inter follows its power law from here on, s (Freireich et al. 2015, section 8.1).
@@ -111,7 +112,7 @@ impl Coating {
             coater,
             shapes,
             frame_interval: interval,
-            frames_per_block: (frames / MOST_BLOCKS).max(shortest.min(frames)).max(1),
+            frames_per_block: shortest.min(frames).max(1),
             film_density: spray.deposit.film_density,
         })
     }
@@ -132,11 +133,19 @@ impl Coating {
             }
         }
         if done.is_multiple_of(self.frames_per_block) {
-            for shape in &mut self.shapes {
-                shape.close_block(&self.coater);
+            if done / self.frames_per_block > MOST_BLOCKS as u64 {
+                self.shapes.iter_mut().for_each(CoatedShape::merge_blocks);
+                self.frames_per_block *= 2;
+            } else {
+                self.shapes.iter_mut().for_each(|shape| shape.close_block(&self.coater));
             }
         }
         Ok(cov_intra)
+    }
+
+    /// Whether the limit can be estimated anew after frame `done`: a block of time has ended, and it is not the first.
+    pub(super) fn has_news(&self, done: u64) -> bool {
+        done.is_multiple_of(self.frames_per_block) && done > self.frames_per_block
     }
 
     /// What came out so far, on bodies of `masses` (kg).
@@ -213,6 +222,11 @@ impl CoatedShape {
         let now = self.counts(coater);
         self.blocks.push(now.iter().zip(&self.blocked).map(|(now, before)| now - before).collect());
         self.blocked = now;
+    }
+
+    fn merge_blocks(&mut self) {
+        let pair = |pair: &[Vec<u64>]| pair[0].iter().zip(&pair[1]).map(|(a, b)| a + b).collect();
+        self.blocks = self.blocks.chunks_exact(2).map(pair).collect();
     }
 
     fn coating(&self, batch: &BatchStatistics, volume_per_count: f64, block_time: f64) -> report::Coating {

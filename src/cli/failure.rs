@@ -3,6 +3,7 @@
 use super::coating::CoatingError;
 use super::guards::Refusal;
 use crate::models::ModelError;
+use crate::models::thz::ThzError;
 use crate::observers::{AimError, CoaterError};
 use crate::report::{ReportError, RunDirError};
 use crate::scene::SceneFaults;
@@ -18,6 +19,10 @@ const STOPPED: u8 = 75;
 pub(super) enum Failure {
     #[error(transparent)]
     Scene(#[from] SceneFaults),
+    #[error("{}: nothing is coated yet; the scene needs a spray and its run an output time", .0.display())]
+    NothingCoated(PathBuf),
+    #[error("{}: {source}", path.display())]
+    Scan { path: PathBuf, source: ThzError },
     #[error("the scene has no drum")]
     NoDrum,
     #[error("refused: {0}")]
@@ -55,6 +60,8 @@ impl Failure {
             Self::Folder(RunDirError::Write { .. }) => 1,
             Self::Scene(_)
             | Self::NoDrum
+            | Self::NothingCoated(_)
+            | Self::Scan { .. }
             | Self::Refused(_)
             | Self::Shape(_)
             | Self::Folder(_)

@@ -6,10 +6,12 @@ mod args;
 mod bed;
 mod check;
 mod coating;
+mod compare;
 mod depth;
 mod failure;
 mod guards;
 mod pace;
+mod predict;
 mod run;
 mod scene_arg;
 mod watch;
@@ -27,6 +29,8 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::check(&args),
         Command::Drum(args) => drum(&args),
         Command::Report(args) => report(&args),
+        Command::Predict(args) => predict::predict(&args),
+        Command::Compare(args) => compare::compare(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -97,6 +97,11 @@ impl Session {
             {
                 self.watch.cov_intra = Some(cov_intra);
             }
+            if self.done < frames && self.coating.as_ref().is_some_and(|c| c.has_news(self.done)) {
+                self.results(simulation)?;
+                self.directory.write_record(&self.record)?;
+                self.watch.limit = self.record.results.coating.cov_intra_asymptote;
+            }
             // A frame that is begun is counted as a whole.
             if !go_on && self.done < frames {
                 return Err(SimulationError::Stopped { time: simulation.clock() }.into());

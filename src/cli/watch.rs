@@ -1,5 +1,6 @@
 //! Shows how a run gets on, and when it is to stop.
 
+use crate::report::Estimate;
 use crate::stepping::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -23,6 +24,8 @@ pub(super) struct Watch {
     purpose: (&'static str, f64),
     /// CoV_intra at the last output time.
     pub(super) cov_intra: Option<f64>,
+    /// Its limit as far as known.
+    pub(super) limit: Option<Estimate>,
 }
 
 enum Display {
@@ -56,6 +59,7 @@ impl Watch {
             last_line: now,
             purpose: ("running", 0.0),
             cov_intra: None,
+            limit: None,
         })
     }
 
@@ -79,6 +83,7 @@ impl Watch {
             of: if progress.stage == Stage::Running { duration } else { progress.of },
             wall: (now - self.stage_start).as_secs_f64(),
             cov_intra: self.cov_intra,
+            limit: self.limit,
         };
         match &self.display {
             Display::Bar(bar) => {
@@ -130,6 +135,7 @@ struct Status {
     of: f64,
     wall: f64,
     cov_intra: Option<f64>,
+    limit: Option<Estimate>,
 }
 
 impl Status {
@@ -142,9 +148,12 @@ impl Status {
             Stage::Settling => format!("settling: {time:.2} s of at most {of} s, {pace:.1} s of work each"),
             Stage::Running => {
                 let cov = self.cov_intra.map_or(String::new(), |cov| format!(", CoV_intra {cov:.3}"));
+                let limit = self.limit.map_or(String::new(), |l| {
+                    format!(", limit {:.3} ({:.3} to {:.3})", l.value, l.low, l.high)
+                });
                 let left = clock(pace * (of - time));
                 let purpose = self.purpose;
-                format!("{purpose}: {time:.2} s of {of} s, {pace:.1} s of work each, {left} left{cov}")
+                format!("{purpose}: {time:.2} s of {of} s, {pace:.1} s of work each, {left} left{cov}{limit}")
             }
         }
     }
@@ -166,11 +175,12 @@ mod tests {
     #[test]
     fn progress_in_words() {
         let progress = Progress { stage: Stage::Running, time: 5.0, of: 0.02, bodies: 7 };
-        let status =
-            Status { progress, purpose: "spraying", of: 20.0, wall: 250.0, cov_intra: Some(1.234_56) };
+        let limit = Some(Estimate { value: 0.1, low: 0.05, high: 0.15, noise_time_s: 3.0 });
+        let cov_intra = Some(1.234_56);
+        let status = Status { progress, purpose: "spraying", of: 20.0, wall: 250.0, cov_intra, limit };
         assert_eq!(
             status.in_words(),
-            "spraying: 5.00 s of 20 s, 50.0 s of work each, 12:30 left, CoV_intra 1.235"
+            "spraying: 5.00 s of 20 s, 50.0 s of work each, 12:30 left, CoV_intra 1.235, limit 0.100 (0.050 to 0.150)"
         );
         assert_eq!(clock(3725.0), "1:02:05");
     }

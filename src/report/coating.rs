@@ -71,10 +71,11 @@ fn profiles(number: usize, thickness: &ThicknessMap, without: Option<&Vec<f64>>)
     let over = maps().map(|h| surface.band_by_height(h, BINS / 3)).collect::<Result<Vec<_>, _>>().ok()?;
     let across = maps().map(|h| surface.cap_by_radius(h, BINS / 2)).collect::<Result<Vec<_>, _>>().ok()?;
     let place = |name: &str, plot: &Plot| format!("<div>{}</div>", chart(&format!("{name}-{number}"), plot));
+    let names = ["average tablet", "without shadows"];
     let charts = [
-        place("around", &tablet_charts::profile(&around, 1f64.to_degrees(), "around the band, °")),
-        place("over", &tablet_charts::profile(&over, 1e3, "height on the band, mm")),
-        place("across", &tablet_charts::profile(&across, 1.0, "across the caps, centre 0 to rim 1")),
+        place("around", &tablet_charts::profile(&around, names, 1f64.to_degrees(), "around the band, °")),
+        place("over", &tablet_charts::profile(&over, names, 1e3, "height on the band, mm")),
+        place("across", &tablet_charts::profile(&across, names, 1.0, "across the caps, centre 0 to rim 1")),
     ];
     Some(format!("<div class=\"three\">{}</div>\n", charts.concat()))
 }

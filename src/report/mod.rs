@@ -6,6 +6,7 @@
 mod base64;
 mod charts;
 mod coating;
+mod compare;
 mod data;
 mod gather;
 mod html;
@@ -16,9 +17,11 @@ mod record;
 mod run_dir;
 mod tables;
 mod tablet_charts;
+mod thz;
 mod verdict;
 pub mod vtp;
 
+pub use compare::{ComparedShape, MEASURES, comparison_page};
 pub use data::{Limit, Quantity, ReportData, ShapeCoating, ThicknessMap};
 pub use gather::ReportError;
 pub use page::page;
@@ -28,3 +31,4 @@ pub use record::{
 };
 pub use run_dir::{RunDir, RunDirError, SeriesFile};
 pub use tables::{PanelRow, TabletRow};
+pub use thz::{ThzSide, thz_page};

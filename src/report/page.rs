@@ -40,7 +40,7 @@ pub fn page(data: &ReportData) -> String {
     document(&data.title, &body)
 }
 
-fn document(title: &str, body: &str) -> String {
+pub(super) fn document(title: &str, body: &str) -> String {
     let title = escape(title);
     let (style, script, plotly) =
         (include_str!("page/page.css"), include_str!("page/page.js"), plotly_script());

@@ -6,14 +6,14 @@ use plotly::common::{DashType, Font, Line, Marker, Mode, Title};
 use plotly::layout::{Axis, Margin, RangeMode};
 use plotly::{Bar, Layout, Plot, Scatter};
 
-/// Profiles of the average tablet and, if given, of the one without shadows; places are multiplied by `unit`.
-pub(super) fn profile(profiles: &[Vec<ProfileBin>], unit: f64, place: &str) -> Plot {
+/// One or two profiles with their names; places are multiplied by `unit`.
+pub(super) fn profile(profiles: &[Vec<ProfileBin>], names: [&str; 2], unit: f64, place: &str) -> Plot {
     let mut plot = Plot::new();
     let lines = [
-        ("average tablet", Line::new().color(ink::INTRA).width(2.4)),
-        ("without shadows", Line::new().color(ink::GUIDE).width(1.6).dash(DashType::Dash)),
+        Line::new().color(ink::INTRA).width(2.4),
+        Line::new().color(ink::GUIDE).width(1.6).dash(DashType::Dash),
     ];
-    for (bins, (name, line)) in profiles.iter().zip(lines) {
+    for ((bins, name), line) in profiles.iter().zip(names).zip(lines) {
         let (x, y) = bins.iter().map(|bin| (bin.at * unit, bin.mean)).unzip::<f64, f64, Vec<_>, Vec<_>>();
         plot.add_trace(Scatter::new(x, y).mode(Mode::Lines).name(name).line(line).show_legend(false));
     }

@@ -1,0 +1,105 @@
+//! `pancoat predict`: how uniform the tablets of a run can get, when, and how many to measure.
+
+use super::args::PredictArgs;
+use super::failure::Failure;
+use super::print_line;
+use crate::models::{Asymptote, tablets_to_measure};
+use crate::report::{Limit, ReportData, ShapeCoating};
+
+pub(super) fn predict(args: &PredictArgs) -> Result<(), Failure> {
+    let data = ReportData::read(&args.directory)?;
+    let Some(last) = data.series.last() else {
+        return Err(Failure::NothingCoated(args.directory.clone()));
+    };
+    print_line(&format!("{}, after {} of spray", data.title, time(last.time_s)))?;
+    for (number, shape) in data.shapes.iter().enumerate() {
+        let mut lines = Vec::new();
+        if let Some(limit) = &shape.limit {
+            lines.extend(approach(limit, args.target));
+        } else {
+            lines.push((
+                "limit of CoV_intra",
+                "not known yet: it takes two blocks of at least 2 s".to_owned(),
+            ));
+        }
+        if let Some(cov) = shape.orientation_only {
+            lines.push(("without shadows", format!("{cov:.3}")));
+        }
+        // The series is that of the first shape.
+        if number == 0 {
+            lines.push(("CoV_intra now", format!("{:.3}", last.cov_intra)));
+            lines.push(("CoV_inter now", format!("{:.3}", last.cov_inter)));
+            lines.extend(inter_in_time(shape, (last.time_s, last.cov_inter), args.target));
+        }
+        lines.extend(to_measure(shape, args.error));
+        print_line(&shape.name)?;
+        for (name, text) in lines {
+            print_line(&format!("  {name:<26}{text}"))?;
+        }
+    }
+    Ok(())
+}
+
+type Line = (&'static str, String);
+
+/// The limit, and when CoV_intra comes near it and to the target; intervals are those of the limit.
+fn approach(limit: &Limit, target: f64) -> Vec<Line> {
+    let mut lines =
+        vec![("limit of CoV_intra", format!("{:.4} ({:.4} to {:.4})", limit.value, limit.low, limit.high))];
+    let Some(noise_time) = limit.noise_time_s else { return lines };
+    let law = |cov: f64| Asymptote { cov_squared: cov * cov, noise_time };
+    lines.push(("noise K", format!("{noise_time:.2} s, CoV_intra^2 = limit^2 + K/t")));
+    let within = law(limit.value).time_within(0.1);
+    lines.push((
+        "within 10 % of the limit",
+        within.map_or_else(|| "the limit may be 0".to_owned(), |t| format!("after {}", time(t))),
+    ));
+    let [soonest, expected, latest] =
+        [limit.low, limit.value, limit.high].map(|cov| law(cov).time_to(target));
+    let text = match (soonest, expected, latest) {
+        (Some(soonest), Some(t), Some(latest)) => {
+            format!("{target} after {} ({} to {})", time(t), time(soonest), time(latest))
+        }
+        (Some(soonest), ..) => format!("{target} perhaps never, not before {}", time(soonest)),
+        _ => format!("{target} never: the limit is above it"),
+    };
+    lines.push(("CoV_intra", text));
+    lines
+}
+
+/// When CoV_inter, which is `cov` after `now` s, comes to the target by its power law.
+fn inter_in_time(shape: &ShapeCoating, (now, cov): (f64, f64), target: f64) -> Option<Line> {
+    let exponent = shape.inter_exponent?;
+    if cov <= target {
+        return Some(("CoV_inter", format!("{target} is reached")));
+    }
+    let when = |power: f64| (power < 0.0).then(|| now * (target / cov).powf(1.0 / power));
+    let [expected, soonest, latest] =
+        [exponent.value, exponent.low, exponent.high].map(|p| when(p).map_or("never".to_owned(), time));
+    Some(("CoV_inter", format!("{target} after {expected} ({soonest} to {latest})")))
+}
+
+/// Tablets to measure for a relative error at 95 % confidence: of the mean thickness, and of the mean CoV_intra,i.
+fn to_measure(shape: &ShapeCoating, error: f64) -> Vec<Line> {
+    let covs: Vec<f64> = shape.tablets.iter().filter_map(|t| t.cov_intra).collect();
+    let means: Vec<f64> = shape.tablets.iter().map(|t| t.mean_thickness_um).collect();
+    let line = |name, values: &[f64]| {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let sd = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
+        let tablets = tablets_to_measure(sd / mean, error);
+        (sd.is_finite() && mean > 0.0).then(|| (name, format!("{tablets} for +-{:.0} %", 100.0 * error)))
+    };
+    [line("to measure, thickness", &means), line("to measure, CoV_intra,i", &covs)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.1} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}
