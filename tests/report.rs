@@ -62,6 +62,7 @@ fn tablets() -> Vec<TabletRow> {
             coat_mass_mg: 5.0,
             mean_thickness_um: 7.65 + spread,
             cov_intra: Some(0.28 + 0.02 * spread),
+            cap_to_band: Some(1.2),
         }
     };
     (0..770).map(row).collect()
@@ -104,6 +105,8 @@ fn sample() -> ReportData {
             name: "round".into(),
             limit: Some(Limit { value: 0.19, low: 0.178, high: 0.201, noise_time_s: Some(9.0) }),
             orientation_only: Some(0.27),
+            orientation_monte_carlo: Some(0.275),
+            order_tensor: Some(0.26),
             inter_exponent: Some(Exponent { value: -0.51, low: -0.54, high: -0.47 }),
             spread_exponent: Some(Exponent { value: -0.57, low: -0.6, high: -0.52 }),
             residence_cov: Some(0.142),
@@ -190,6 +193,8 @@ fn a_run_directory_holds_what_the_page_shows() {
             "cov_intra": 0.28,
             "cov_intra_asymptote": { "value": 0.19, "low": 0.178, "high": 0.201, "noise_time_s": 9.0 },
             "cov_intra_orientation_only": 0.27,
+            "cov_intra_orientation_monte_carlo": 0.275,
+            "cov_intra_order_tensor": 0.26,
             "cov_inter_exponent": { "value": -0.51, "low": -0.54, "high": -0.47 },
             "sd_cov_intra_exponent": { "value": -0.57, "low": -0.6, "high": -0.52 },
             "cov_residence_time": 0.142,

@@ -21,6 +21,8 @@ const SHORTEST_BLOCK: f64 = 2.0;
 const MOST_BLOCKS: usize = 10;
 /// A tablet that a shadow hides for so long has not left the spray, s.
 const SHADOW: f64 = 0.1;
+/// Tablets and trials of the orientation-only Monte Carlo.
+const MONTE_CARLO: (usize, u64) = (100, 400);
 /// CoV_inter follows its power law from here on, s (Freireich et al. 2015, section 8.1).
 const MIXED: f64 = 10.0;
 
@@ -40,6 +42,8 @@ struct CoatedShape {
     shape: TabletShape,
     panels: Panels,
     on_cap: Vec<bool>,
+    /// Of the Monte Carlo.
+    seed: u64,
     bodies: Vec<usize>,
     series: CoatingSeries,
     passes: SprayPasses,
@@ -96,6 +100,7 @@ impl Coating {
                 let panels = shape.panels.clone().filter(|_| !bodies.is_empty())?;
                 Some(CoatedShape {
                     shape: shape.clone(),
+                    seed: scene.seed,
                     blocked: vec![0; bodies.len() * panels.len()],
                     on_cap: panels.regions.iter().map(|&region| region == Region::Cap).collect(),
                     panels,
@@ -172,9 +177,8 @@ impl Coating {
             };
             let residual = batch.identities.worst().max(shape.series.worst_identity());
             outcome.identity_residual = outcome.identity_residual.max(residual);
-            let pattern = shape.without_shadows();
             let mut coating = shape.coating(&batch, self.volume_per_count, self.block_time());
-            coating.cov_intra_orientation_only = pattern.as_ref().map(|pattern| pattern.cov);
+            let pattern = shape.without_shadows(&mut coating);
             if k == 0 {
                 outcome.main = coating;
             }
@@ -182,7 +186,9 @@ impl Coating {
                 outcome.shapes.insert(shape.shape.name.clone(), coating);
             }
             let area = map.tablet_area();
-            for (&body, tablet) in shape.bodies.iter().zip(&batch.tablets) {
+            for (k, (&body, tablet)) in shape.bodies.iter().zip(&batch.tablets).enumerate() {
+                let own: Vec<f64> = (0..map.panels()).map(|panel| map.thickness(k, panel)).collect();
+                let regions = region_means(&own, &shape.panels.areas, &shape.on_cap)?;
                 outcome.film[body] = tablet.mean;
                 outcome.tablets.push(TabletRow {
                     tablet: body,
@@ -191,6 +197,7 @@ impl Coating {
                     coat_mass_mg: 1e6 * self.film_density * area * tablet.mean,
                     mean_thickness_um: 1e6 * tablet.mean,
                     cov_intra: tablet.cov(),
+                    cap_to_band: regions.map(|means| means.ratio()).filter(|ratio| ratio.is_finite()),
                 });
             }
             outcome.panels.extend(shape.panel_rows(&batch));
@@ -244,7 +251,6 @@ impl CoatedShape {
                 high: limit.interval.high,
                 noise_time_s: limit.asymptote.noise_time,
             }),
-            cov_intra_orientation_only: None,
             mean_thickness_um: Some(1e6 * batch.mean_thickness),
             cov_inter_exponent: self.series.law_of_inter(MIXED, &Bootstrap::default()).ok().map(exponent),
             sd_cov_intra_exponent: self.series.spread_of_cov(&Bootstrap::default()).ok().map(exponent),
@@ -253,6 +259,7 @@ impl CoatedShape {
                 .flatten()
                 .map(|means| means.orientation_index()),
             passes: self.passes(),
+            ..report::Coating::default()
         }
     }
 
@@ -268,11 +275,17 @@ impl CoatedShape {
         }
     }
 
-    /// The limit of the tablets as they were turned, without shadows; `None` before any was hit.
-    fn without_shadows(&self) -> Option<CoatPattern> {
+    /// The limit of the tablets as they were turned, without shadows, by three ways; `None` before any was hit.
+    fn without_shadows(&self, coating: &mut report::Coating) -> Option<CoatPattern> {
         let Panels { centroids, normals, areas, .. } = &self.panels;
         let surface = TabletSurface::new(centroids, normals, areas, &self.on_cap).ok()?;
-        surface.orientation_limit(self.passes.directions()).ok()
+        let (directions, order) = (self.passes.directions(), self.passes.figures()?.order);
+        let pattern = surface.orientation_limit(directions).ok()?;
+        let played = surface.orientation_monte_carlo(directions, MONTE_CARLO.0, &[MONTE_CARLO.1], self.seed);
+        coating.cov_intra_orientation_only = Some(pattern.cov);
+        coating.cov_intra_orientation_monte_carlo = played.ok().and_then(|covs| covs.last().copied());
+        coating.cov_intra_order_tensor = surface.orientation_expansion(&order).ok().map(|p| p.cov);
+        Some(pattern)
     }
 
     fn panel_rows<'a>(&'a self, batch: &'a BatchStatistics) -> impl Iterator<Item = PanelRow> + 'a {

@@ -80,7 +80,9 @@ fn scans(args: &CompareArgs) -> Result<String, Failure> {
     let measured = measured.collect::<Result<Vec<_>, _>>()?;
     let simulated = SimulatedMap { average: &average, panel_sd: &sd, tablets: shape.tablets.len() };
     let comparison = ThzComparison::new(&measured, &simulated, &surface)?;
-    let side = ThzSide { title: &data.title, map, scans: &measured, comparison: &comparison };
+    let tablets: Vec<f64> = shape.tablets.iter().filter_map(|tablet| tablet.cap_to_band).collect();
+    let side =
+        ThzSide { title: &data.title, map, scans: &measured, comparison: &comparison, tablets: &tablets };
     for (name, text) in side.figures() {
         print_line(&format!("{name:<34}{text}"))?;
     }

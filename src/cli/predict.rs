@@ -22,8 +22,10 @@ pub(super) fn predict(args: &PredictArgs) -> Result<(), Failure> {
                 "not known yet: it takes two blocks of at least 2 s".to_owned(),
             ));
         }
-        if let Some(cov) = shape.orientation_only {
-            lines.push(("without shadows", format!("{cov:.3}")));
+        let without = [shape.orientation_only, shape.orientation_monte_carlo, shape.order_tensor];
+        if let [Some(exact), Some(played), Some(order)] = without {
+            let text = format!("{exact:.3} (Monte Carlo {played:.3}, order tensor {order:.3})");
+            lines.push(("without shadows", text));
         }
         // The series is that of the first shape.
         if number == 0 {

@@ -23,7 +23,7 @@ fn where_it_lies(number: usize, shape: &ShapeCoating, thickness: &ThicknessMap) 
     let mut content = format!(
         "<div class=\"pair\"><div>{}</div><div>{}</div></div>\n",
         chart(&format!("map-{number}"), &average),
-        table(&facts(thickness))
+        table(&facts(shape, thickness))
     );
     content += &profiles(number, thickness, without).unwrap_or_default();
     if let Some(without) = without {
@@ -42,7 +42,7 @@ fn where_it_lies(number: usize, shape: &ShapeCoating, thickness: &ThicknessMap) 
     )
 }
 
-fn facts(thickness: &ThicknessMap) -> Vec<(String, String)> {
+fn facts(shape: &ShapeCoating, thickness: &ThicknessMap) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let mut row = |name: &str, value: String| rows.push((name.to_string(), value));
     let um = |value: f64| format!("{} µm", significant(value, 3));
@@ -50,6 +50,14 @@ fn facts(thickness: &ThicknessMap) -> Vec<(String, String)> {
         row("Mean on the caps", um(means.cap));
         row("Mean on the band", um(means.band));
         row("Cap over band", significant(means.ratio(), 3));
+    }
+    let without = [
+        ("Limit of CoV<sub>intra</sub> without shadows", shape.orientation_only),
+        ("The same by Monte Carlo, 400 trials", shape.orientation_monte_carlo),
+        ("The same from the order tensor", shape.order_tensor),
+    ];
+    for (name, cov) in without {
+        cov.into_iter().for_each(|cov| row(name, significant(cov, 3)));
     }
     let mut sorted = thickness.average_um.clone();
     sorted.sort_by(f64::total_cmp);

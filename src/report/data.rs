@@ -55,6 +55,10 @@ pub struct ShapeCoating {
     pub limit: Option<Limit>,
     /// Limit of the orientation-only model, when computed.
     pub orientation_only: Option<f64>,
+    /// The same by Monte Carlo.
+    pub orientation_monte_carlo: Option<f64>,
+    /// The same from the order tensor alone.
+    pub order_tensor: Option<f64>,
     /// Power of time with which CoV_inter falls, once the batch is mixed.
     pub inter_exponent: Option<Exponent>,
     /// Power of time with which the spread of CoV_intra,i between tablets falls.

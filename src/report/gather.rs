@@ -111,6 +111,8 @@ fn shapes(dir: &Path, results: &Value) -> Result<Vec<ShapeCoating>, ReportError>
         ShapeCoating {
             limit: limit(&own["cov_intra_asymptote"]),
             orientation_only: own["cov_intra_orientation_only"].as_f64(),
+            orientation_monte_carlo: own["cov_intra_orientation_monte_carlo"].as_f64(),
+            order_tensor: own["cov_intra_order_tensor"].as_f64(),
             inter_exponent: exponent(&own["cov_inter_exponent"]),
             spread_exponent: exponent(&own["sd_cov_intra_exponent"]),
             residence_cov: own["cov_residence_time"].as_f64(),

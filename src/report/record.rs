@@ -151,6 +151,12 @@ pub struct Coating {
     /// Limit of the orientation-only model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cov_intra_orientation_only: Option<f64>,
+    /// The same by the Monte Carlo of Freireich et al. 2011, 400 trials of 100 tablets.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cov_intra_orientation_monte_carlo: Option<f64>,
+    /// The same from the order tensor alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cov_intra_order_tensor: Option<f64>,
     /// Mean thickness, µm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_thickness_um: Option<f64>,

@@ -232,6 +232,7 @@ mod tests {
             coat_mass_mg: 0.1,
             mean_thickness_um: 1e-3,
             cov_intra: None,
+            cap_to_band: None,
         };
         dir.write_table("tablets.csv", [&row]).unwrap();
         assert_eq!(rows::<TabletRow>(&dir, "tablets.csv"), [row]);

@@ -17,6 +17,8 @@ pub struct TabletRow {
     pub mean_thickness_um: f64,
     /// CoV_intra,i over its surface (Eq 11); empty without coating.
     pub cov_intra: Option<f64>,
+    /// Mean thickness of its caps over that of its band; empty without coating on the band, or without a band.
+    pub cap_to_band: Option<f64>,
 }
 
 /// One panel of a shape.

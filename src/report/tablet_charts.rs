@@ -2,20 +2,25 @@
 
 use super::charts::ink;
 use crate::models::ProfileBin;
-use plotly::common::{DashType, Font, Line, Marker, Mode, Title};
+use plotly::common::{DashType, ErrorData, ErrorType, Font, Line, Marker, Mode, Title};
 use plotly::layout::{Axis, Margin, RangeMode};
 use plotly::{Bar, Layout, Plot, Scatter};
 
-/// One or two profiles with their names; places are multiplied by `unit`.
+/// One or two profiles with their names; places are multiplied by `unit`. A third one is the uncertainty of the second.
 pub(super) fn profile(profiles: &[Vec<ProfileBin>], names: [&str; 2], unit: f64, place: &str) -> Plot {
+    let errors = profiles.get(2).map(|bins| bins.iter().map(|bin| bin.mean).collect::<Vec<_>>());
     let mut plot = Plot::new();
     let lines = [
         Line::new().color(ink::INTRA).width(2.4),
         Line::new().color(ink::GUIDE).width(1.6).dash(DashType::Dash),
     ];
-    for ((bins, name), line) in profiles.iter().zip(names).zip(lines) {
+    for (k, ((bins, name), line)) in profiles.iter().zip(names).zip(lines).enumerate() {
         let (x, y) = bins.iter().map(|bin| (bin.at * unit, bin.mean)).unzip::<f64, f64, Vec<_>, Vec<_>>();
-        plot.add_trace(Scatter::new(x, y).mode(Mode::Lines).name(name).line(line).show_legend(false));
+        let mut curve = Scatter::new(x, y).mode(Mode::Lines).name(name).line(line).show_legend(false);
+        if let (1, Some(errors)) = (k, &errors) {
+            curve = curve.error_y(ErrorData::new(ErrorType::Data).array(errors.clone()).color(ink::GUIDE));
+        }
+        plot.add_trace(curve);
     }
     plot.set_layout(
         layout(place, "thickness, µm").y_axis(axis("thickness, µm").range_mode(RangeMode::ToZero)),

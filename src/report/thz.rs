@@ -21,9 +21,17 @@ pub struct ThzSide<'a> {
     pub scans: &'a [ThzMap],
     /// Both compared.
     pub comparison: &'a ThzComparison,
+    /// Cap over band of single simulated tablets.
+    pub tablets: &'a [f64],
 }
 
 impl ThzSide<'_> {
+    /// Standard deviation of the mean cap over band of as many simulated tablets as were measured.
+    fn spread(&self) -> Option<f64> {
+        let (_, sd) = (self.tablets.len() > 1).then(|| tablet_charts::mean_and_sd(self.tablets))?;
+        Some(sd / (self.scans.len() as f64).sqrt())
+    }
+
     /// The figures of the comparison, in words.
     pub fn figures(&self) -> Vec<(String, String)> {
         let c = self.comparison;
@@ -41,6 +49,10 @@ impl ThzSide<'_> {
             ("CoV, simulated", significant(c.simulated_cov, 3)),
             ("Cap over band, measured", ratio(c.measured_regions)),
             ("Cap over band, simulated", ratio(c.simulated_regions)),
+            (
+                "Cap over band, spread of as many",
+                self.spread().map_or("–".to_owned(), |s| format!("± {}", significant(s, 2))),
+            ),
             ("Correlation of the maps", significant(c.correlation, 3)),
             ("Mean of (difference/uncertainty)²", significant(c.chi_squared, 3)),
         ];
@@ -89,7 +101,8 @@ pub fn thz_page(side: &ThzSide<'_>) -> Result<String, ModelError> {
     let body = section(
         &format!("Measured against simulated: {}", escape(side.title)),
         "Panels that no scan covers have the darkest colour. The uncertainty of a panel holds the scatter of its points and how \
-         much single tablets differ from the average: few measured tablets never show it.",
+         much single tablets differ from the average: few measured tablets never show it. In the profiles the line is simulated, \
+         dashes are measured; bars are the most that their uncertainty can be.",
         &content,
     );
     Ok(document(side.title, &body))
@@ -107,6 +120,8 @@ fn profiles(side: &ThzSide<'_>) -> Result<String, ModelError> {
     let thickness = [
         panels.iter().map(|p| 1e6 * p.simulated).collect::<Vec<_>>(),
         panels.iter().map(|p| 1e6 * p.measured).collect(),
+        // Of a mean over panels at most the mean of theirs: neighbours on a tablet differ from the average together.
+        panels.iter().map(|p| 1e6 * p.uncertainty).collect(),
     ];
     let names = ["simulated", "measured"];
     let pair = |bins: &dyn Fn(&[f64]) -> Result<Vec<_>, ModelError>| {
