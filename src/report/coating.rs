@@ -57,7 +57,9 @@ fn facts(shape: &ShapeCoating, thickness: &ThicknessMap) -> Vec<(String, String)
         ("The same from the order tensor", shape.order_tensor),
     ];
     for (name, cov) in without {
-        cov.into_iter().for_each(|cov| row(name, significant(cov, 3)));
+        if let Some(cov) = cov {
+            row(name, significant(cov, 3));
+        }
     }
     let mut sorted = thickness.average_um.clone();
     sorted.sort_by(f64::total_cmp);

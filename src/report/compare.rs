@@ -48,7 +48,7 @@ impl ComparedShape {
             covs: (number == 0).then_some((last.cov_intra, last.cov_inter)),
             limit: shape.limit,
             orientation_only: shape.orientation_only,
-            cap_to_band: shape.map.as_ref().and_then(|map| map.regions()).map(|means| means.ratio()),
+            cap_to_band: shape.map.as_ref().and_then(ThicknessMap::regions).map(|means| means.ratio()),
             measures: shape.map.as_ref().map_or([None; 3], measures),
         };
         data.shapes.iter().enumerate().map(shape).collect()
@@ -112,15 +112,15 @@ pub fn comparison_page(shapes: &[ComparedShape]) -> String {
         &format!("<table>{head}{}</table>\n", rows.concat()),
     );
     let correlations = ComparedShape::correlations(shapes);
-    let mut charts = String::new();
-    for (k, name) in MEASURES.iter().enumerate() {
+    let figure = |k: usize| {
         let told = correlations[k].map_or_else(
             || "fewer than three shapes: no rank correlation".to_owned(),
             |s| format!("rank correlation ρ = {}, p = {}", significant(s.rho, 2), significant(s.p_value, 2)),
         );
         let plot = chart(&format!("measure-{k}"), &against(shapes, k));
-        charts += &format!("<figure>{plot}<figcaption>{name}: {told}</figcaption></figure>");
-    }
+        format!("<figure>{plot}<figcaption>{}: {told}</figcaption></figure>", MEASURES[k])
+    };
+    let charts = [0, 1, 2].map(figure).concat();
     body += &section(
         "Limit against shape",
         "What of a shape sets its limit? Bars are 95 % intervals. With few shapes no correlation can be told from chance: \

@@ -69,7 +69,9 @@ pub fn thz_page(side: &ThzSide<'_>) -> Result<String, ModelError> {
     // A panel that no scan covers takes the lowest colour.
     let spread = |value: &dyn Fn(&crate::models::thz::PanelDifference) -> f64| {
         let mut values = vec![f64::NEG_INFINITY; side.map.areas_mm2.len()];
-        panels.iter().for_each(|p| values[p.panel] = value(p));
+        for panel in panels {
+            values[panel.panel] = value(panel);
+        }
         let least = values.iter().copied().filter(|v| v.is_finite()).fold(f64::INFINITY, f64::min);
         values.into_iter().map(|v| v.max(least)).collect::<Vec<f64>>()
     };
