@@ -1,49 +1,9 @@
-//! The spheres of `scenes/sphere.ron` through the library: fill, settle, aim, spray, and print what came out.
-//!
-//! `cargo run --release --example sphere -- 5` sprays for 5 s. A sphere has no preferred side: its average tablet gets ever more even.
+//! The spherical tablets of `scenes/sphere.ron` through the library: `cargo run --release --example sphere -- 5` sprays for 5 s.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
-use pancoat::models::{BatchStatistics, CoatMap};
-use pancoat::observers::{BedSurface, Coater, Observer, film_volume_per_count};
-use pancoat::scene::Scene;
-use pancoat::stepping::{Frame, Simulation};
-use std::error::Error;
+#[path = "common/coat.rs"]
+mod coat;
 
-/// Where all bodies were.
-struct Positions(Vec<nalgebra::Vector3<f64>>);
-
-impl Observer for Positions {
-    fn observe(&mut self, frame: &Frame<'_>) {
-        self.0.extend(frame.bodies.iter().map(|body| body.position));
-    }
-}
-
-fn main() -> Result<(), Box<dyn Error>> {
-    let seconds: f64 = std::env::args().nth(1).map_or(Ok(5.0), |s| s.parse())?;
-    let scene = Scene::embedded("sphere")?;
-    let spray = scene.spray.as_ref().ok_or("the scene sprays")?;
-    let frames = |seconds: f64| (seconds / scene.time.frame_interval).round() as u64;
-
-    let mut simulation = Simulation::new(&scene)?;
-    simulation.fill(&mut |_| true)?;
-    let settled = simulation.settle(&mut |_| true)?;
-    println!("{} tablets settled in {settled:.1} s", simulation.body_shapes().len());
-
-    let mut positions = Positions(Vec::new());
-    simulation.run(0, frames(0.5), &mut [&mut positions], &mut |_| true)?;
-    let bed = BedSurface::fit(&positions.0, 6.56e-3)?; // the spheres' radius
-    println!("angle of repose {:.1} degrees", bed.angle_of_repose_deg());
-
-    let kinds = simulation.body_shapes().to_vec();
-    let mut coater = Coater::new(simulation.shapes(), &kinds, spray, bed.zone(spray), simulation.drum())?;
-    simulation.run(0, frames(seconds), &mut [&mut coater], &mut |_| true)?;
-
-    let panels = simulation.shapes()[0].panels.as_ref().ok_or("a sprayed shape has panels")?;
-    let counts: Vec<u64> = (0..kinds.len()).flat_map(|body| coater.counts(body).to_vec()).collect();
-    let unit = film_volume_per_count(&spray.deposit, scene.time.frame_interval, coater.counts_per_frame());
-    let batch = BatchStatistics::of(&CoatMap::new(&panels.areas, &counts, unit)?)?;
-    println!("after {seconds} s of spray: mean thickness {:.3} um", batch.mean_thickness * 1e6);
-    println!("CoV_intra {:.3}, CoV_inter {:.3}", batch.moments, batch.inter);
-    println!("CoV_intra of the average tablet {:.3}", batch.average_tablet);
-    Ok(())
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    coat::coat("sphere")
 }

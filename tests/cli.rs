@@ -145,7 +145,7 @@ fn faults_of_the_input_exit_with_2() {
     };
     wrong(&["run", &scene, "--out", &out, "--set", "drum.sped=Rpm(3)"], "(did you mean `speed`?)");
     wrong(&["check", "absent.ron"], "absent.ron: cannot read the scene");
-    wrong(&["check", "oval"], "no scene of that name is built in; known: round, sphere");
+    wrong(&["check", "heart"], "no scene of that name is built in; known: round, sphere");
     wrong(&["run", &scene, "--seconds", "0"], "must be above 0");
     wrong(&["run", &scene, "--max-wall", "soon"], "expected a time such as 90s, 30m or 2h");
     wrong(
@@ -179,6 +179,47 @@ fn check_says_what_is_on_and_what_is_left_out() {
     {
         assert!(off.contains(line), "{line} is not in\n{off}");
     }
+}
+
+/// The paper's round tablet: Table 4 within 0.5 %, band over face area within 1 %.
+#[test]
+fn shapes_are_measured_and_written() {
+    let folder = tempfile::tempdir().expect("can be made");
+    let out = folder.path().display().to_string();
+    let text = stdout(&pancoat(&["shape", "round", "--json", "--out", &out]).success());
+    let sheet: Value = serde_json::from_str(text.trim()).expect("is JSON");
+    let close = |key: &str, wanted: f64, within: f64| {
+        let found = sheet[key].as_f64().expect("is a number");
+        assert!((found / wanted - 1.0).abs() < within, "{key}: {found}");
+    };
+    close("length_mm", 15.9, 0.005);
+    close("width_mm", 15.9, 0.005);
+    close("thickness_mm", 6.64, 0.005);
+    close("area_mm2", 584.5, 0.005);
+    close("volume_mm3", 1042.0, 0.005);
+    close("sphericity", 0.8502, 0.005);
+    close("band_to_face", 0.3844, 0.01);
+    assert_eq!(sheet["clump"]["spheres"], 50);
+    let largest = sheet["clump"]["largest_deviation_um"].as_f64().expect("is known");
+    assert!((50.0..2000.0).contains(&largest), "{largest}");
+    for file in ["round.stl", "round.obj", "round.vtp", "round.html", "round_clump.txt"] {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
+    let clump = fs::read_to_string(folder.path().join("round_clump.txt")).expect("is there");
+    assert_eq!(clump.lines().filter(|line| line.split(' ').count() == 4).count(), 50);
+    assert!(stdout(&pancoat(&["shape", "sphere"]).success()).contains("clump of 1 "));
+}
+
+#[test]
+fn a_new_scene_is_one_that_runs_and_nothing_is_written_over() {
+    let folder = tempfile::tempdir().expect("can be made");
+    let file = folder.path().join("mine.ron").display().to_string();
+    pancoat(&["new", "half_moon", "--out", &file]).success();
+    pancoat(&["check", &file]).success();
+    let assert = pancoat(&["new", "oval", "--out", &file]).code(2);
+    assert!(stderr(&assert).contains("mine.ron"), "{}", stderr(&assert));
+    assert!(fs::read_to_string(&file).expect("is there").contains("half_moon"));
+    pancoat(&["new", "heart"]).code(2);
 }
 
 #[test]

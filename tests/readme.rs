@@ -42,7 +42,7 @@ fn commands_run_as_written() {
         let mut command = Command::cargo_bin("pancoat").expect("is built");
         command.current_dir(folder.path()).args(arguments.split_whitespace());
         if arguments.starts_with("run ") {
-            command.args(["--seconds", "0.2", "--quiet"]);
+            command.args(["--seconds", "0.6", "--quiet"]);
             for set in small(arguments) {
                 command.args(["--set", set]);
             }

@@ -38,7 +38,8 @@ fn run(name: &str, seconds: &str, overrides: &[&str]) -> Value {
 fn coats(name: &str, overrides: &[&str]) -> Value {
     let record = run(name, "2", overrides);
     assert_eq!(record["status"], "done");
-    let scene = Scene::load(&scene_path(name), &[]).expect("is valid");
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let scene = Scene::load(&scene_path(name), &overrides).expect("is valid");
     let tablets: usize = scene.batches.iter().map(|batch| batch.count).sum();
     assert_eq!(record["derived"]["bodies"], tablets, "all tablets are in the pan");
     assert!(record["derived"]["settling_s"].as_f64().expect("settled") > 0.5);
@@ -90,6 +91,14 @@ fn oval_tablets() {
 #[test]
 fn triangular_tablets() {
     coats("triangular", &["shapes.triangular.spheres=12"]);
+}
+
+/// Shapes that the paper does not have, in batches of 400 g to save time.
+#[test]
+fn other_recipes() {
+    for name in ["capsule", "bullet", "half_moon", "shield", "flat"] {
+        coats(name, &["batches[0].mass=G(400)", &format!("shapes.{name}.spheres=12")]);
+    }
 }
 
 #[test]

@@ -19,6 +19,10 @@ pub(super) enum Command {
     Run(RunArgs),
     /// Say what a scene would do, what it leaves out, its time step and its cost
     Check(CheckArgs),
+    /// Say the measures of a scene's tablet shapes, how good their panels and clumps are, and write them as files
+    Shape(ShapeArgs),
+    /// Write a built-in scene as a file to begin with
+    New(NewArgs),
     /// Write the drum of a scene as an STL mesh, in mm
     Drum(DrumArgs),
     /// Make report.html of a run's folder anew
@@ -54,6 +58,31 @@ pub(super) struct RunArgs {
 pub(super) struct CheckArgs {
     #[command(flatten)]
     pub(super) scene: SceneArg,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct ShapeArgs {
+    #[command(flatten)]
+    pub(super) scene: SceneArg,
+    /// One JSON line for each shape
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Also the error of clumps of 10 to 400 spheres, which takes a while
+    #[arg(long)]
+    pub(super) clumps: bool,
+    /// Folder for each shape's page, its panels as STL, OBJ (mm) and VTP, and its clump as lines of x y z r (mm)
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct NewArgs {
+    /// Built-in scene
+    #[arg(value_name = "NAME")]
+    pub(super) name: String,
+    /// File to write [default: NAME.ron]
+    #[arg(long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -23,6 +23,8 @@ pub(super) enum Failure {
     NothingCoated(PathBuf),
     #[error("{}: {source}", path.display())]
     Scan { path: PathBuf, source: ThzError },
+    #[error("cannot write {}: {source}", path.display())]
+    NewScene { path: PathBuf, source: std::io::Error },
     #[error("the scene has no drum")]
     NoDrum,
     #[error("refused: {0}")]
@@ -61,6 +63,7 @@ impl Failure {
             Self::Scene(_)
             | Self::NoDrum
             | Self::NothingCoated(_)
+            | Self::NewScene { .. }
             | Self::Scan { .. }
             | Self::Refused(_)
             | Self::Shape(_)

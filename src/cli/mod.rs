@@ -10,10 +10,12 @@ mod compare;
 mod depth;
 mod failure;
 mod guards;
+mod new;
 mod pace;
 mod predict;
 mod run;
 mod scene_arg;
+mod shape;
 mod watch;
 
 use args::{Args, Command};
@@ -29,6 +31,8 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::check(&args),
         Command::Drum(args) => drum(&args),
         Command::Report(args) => report(&args),
+        Command::Shape(args) => shape::shape(&args),
+        Command::New(args) => new::new(&args),
         Command::Predict(args) => predict::predict(&args),
         Command::Compare(args) => compare::compare(&args),
     };

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 /// Which scene, with which values.
 #[derive(Debug, clap::Args)]
 pub(super) struct SceneArg {
-    /// Scene file, or the name of a built-in scene: round, sphere
+    /// Scene file, or the name of a built-in scene: round, sphere, almond, oval, triangular, capsule, bullet,
+    /// half_moon, shield, flat
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
     /// Put a value into the scene, such as drum.speed='Rpm(30)' or spray=None; may be repeated

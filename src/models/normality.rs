@@ -18,6 +18,15 @@ pub struct AndersonDarling {
 impl AndersonDarling {
     /// Tests `values`.
     ///
+    /// ```
+    /// use pancoat::models::AndersonDarling;
+    /// let lumps: Vec<f64> = (0..40).map(|k| f64::from(k % 2)).collect();
+    /// assert!(AndersonDarling::test(&lumps)?.p_value < 1e-6);
+    /// let even: Vec<f64> = (0..40).map(f64::from).collect(); // too few to be told from normal ones
+    /// assert!(AndersonDarling::test(&even)?.p_value > 0.05);
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`ModelError::TooFew`] below eight values, and when all are equal.
     pub fn test(values: &[f64]) -> Result<Self, ModelError> {

@@ -33,6 +33,18 @@ impl TabletSurface<'_> {
     /// The exact limit for a set of spray directions (unit vectors in body axes, towards the nozzle): the mean of
     /// max(0, n·s) over the directions, which the Monte Carlo model nears with more and more trials.
     ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use pancoat::models::TabletSurface;
+    /// // A thin plate that always lies with the same face up: one face gets all, the other nothing.
+    /// let (places, normals) = ([Vector3::zeros(); 2], [Vector3::z(), -Vector3::z()]);
+    /// let plate = TabletSurface::new(&places, &normals, &[1.0, 1.0], &[true, true])?;
+    /// assert_eq!(plate.orientation_limit(&[Vector3::z()])?.cov, 1.0);
+    /// // Turned over every other time it is coated evenly.
+    /// assert_eq!(plate.orientation_limit(&[Vector3::z(), -Vector3::z()])?.cov, 0.0);
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`ModelError::Uncoated`] without directions.
     pub fn orientation_limit(&self, directions: &[Vector3<f64>]) -> Result<CoatPattern, ModelError> {
@@ -52,6 +64,18 @@ impl TabletSurface<'_> {
     /// 2 % at S₂ = 0.56, and off by up to a tenth for nearly frozen tablets. With ⟨s⟩ = 0 this is
     /// CoV = (5/4) sd_A(n·Q·n) / (1 + (5/4) mean_A(n·Q·n)).
     ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use pancoat::models::{OrderTensor, TabletSurface};
+    /// let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let normals: Vec<_> = axes.iter().flat_map(|a| [*a, -a]).collect();
+    /// let cube = TabletSurface::new(&normals, &normals, &[1.0; 6], &[false; 6])?;
+    /// // Up and down alike: Q = diag(-1/2, -1/2, 1), hence 9/16 on two faces and 3/32 on four of mean 1/4.
+    /// let order = OrderTensor::of(&[Vector3::z(), -Vector3::z()]);
+    /// assert!((cube.orientation_expansion(&order)?.cov - 1.25 / f64::sqrt(2.0)).abs() < 1e-12);
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`ModelError::Uncoated`] when the expansion gives no positive mean.
     pub fn orientation_expansion(&self, order: &OrderTensor) -> Result<CoatPattern, ModelError> {
@@ -62,6 +86,17 @@ impl TabletSurface<'_> {
 
     /// The Monte Carlo model as published: each of `tablets` tablets is coated from directions drawn at random out of
     /// `directions`; CoV_intra by averaging moments (Eq 8) after each of the numbers of `trials` (ascending).
+    ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use pancoat::models::TabletSurface;
+    /// let (places, normals) = ([Vector3::zeros(); 2], [Vector3::z(), -Vector3::z()]);
+    /// let plate = TabletSurface::new(&places, &normals, &[1.0, 1.0], &[true, true])?;
+    /// // Which face is up is thrown like a coin: CoV² = 1/trials on average, so 1 after one trial and 0.1 after a hundred.
+    /// let cov = plate.orientation_monte_carlo(&normals, 10_000, &[1, 100], 1)?;
+    /// assert!(cov[0] == 1.0 && (cov[1] - 0.1).abs() < 0.003);
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
     ///
     /// # Errors
     /// [`ModelError::Uncoated`] without directions.

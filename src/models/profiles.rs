@@ -17,6 +17,16 @@ pub struct ProfileBin {
 impl TabletSurface<'_> {
     /// Band thickness against the angle about z, from −π to π; 0 along x, the length of the tablet.
     ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use pancoat::models::TabletSurface;
+    /// let places = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vector3::new(x, y, 0.0));
+    /// let band = TabletSurface::new(&places, &places, &[1.0; 4], &[false; 4])?;
+    /// let profile = band.band_by_angle(&[1.0, 2.0, 3.0, 5.0], 2)?;
+    /// assert_eq!([profile[0].mean, profile[1].mean], [1.5, 4.0]);
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`ModelError::Length`] unless there is a thickness per panel.
     pub fn band_by_angle(&self, thickness: &[f64], bins: usize) -> Result<Vec<ProfileBin>, ModelError> {
@@ -24,6 +34,16 @@ impl TabletSurface<'_> {
     }
 
     /// Band thickness against the height z over the mid-plane, m.
+    ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use pancoat::models::TabletSurface;
+    /// let places = [-1e-3, 1e-3, 1e-3].map(|z| Vector3::new(8e-3, 0.0, z));
+    /// let band = TabletSurface::new(&places, &places, &[1.0, 1.0, 3.0], &[false; 3])?;
+    /// let profile = band.band_by_height(&[7.0, 1.0, 5.0], 2)?;
+    /// assert_eq!([profile[0].mean, profile[1].mean], [7.0, 4.0]); // (1 + 3 · 5)/4 above
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
     ///
     /// # Errors
     /// [`ModelError::Length`] unless there is a thickness per panel.
@@ -34,6 +54,16 @@ impl TabletSurface<'_> {
     }
 
     /// Thickness of both caps against the radius relative to the outline at the same angle: 0 at the axis, 1 at the band.
+    ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use pancoat::models::TabletSurface;
+    /// let places = [1e-3, 3e-3, 8e-3].map(|x| Vector3::new(x, 0.0, 0.0)); // the last one is on the band
+    /// let cap = TabletSurface::new(&places, &places, &[1.0; 3], &[true, true, false])?;
+    /// let profile = cap.cap_by_radius(&[3.0, 5.0, 9.0], 2)?;
+    /// assert_eq!(profile[0].mean, 4.0); // at 1/8 and 3/8 of the outline
+    /// # Ok::<(), pancoat::models::ModelError>(())
+    /// ```
     ///
     /// # Errors
     /// [`ModelError::Length`] unless there is a thickness per panel.

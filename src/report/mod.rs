@@ -15,6 +15,7 @@ mod number;
 mod page;
 mod record;
 mod run_dir;
+mod shape;
 mod tables;
 mod tablet_charts;
 mod thz;
@@ -30,5 +31,6 @@ pub use record::{
     RunRecord, SprayAim, Status,
 };
 pub use run_dir::{RunDir, RunDirError, SeriesFile};
+pub use shape::shape_page;
 pub use tables::{PanelRow, TabletRow};
 pub use thz::{ThzSide, thz_page};

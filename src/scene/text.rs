@@ -10,8 +10,18 @@ use super::source::Source;
 use std::path::{Path, PathBuf};
 
 /// Scenes that the program carries, by name.
-const EMBEDDED: [(&str, &str); 2] =
-    [("round", include_str!("../../scenes/round.ron")), ("sphere", include_str!("../../scenes/sphere.ron"))];
+const EMBEDDED: [(&str, &str); 10] = [
+    ("round", include_str!("../../scenes/round.ron")),
+    ("sphere", include_str!("../../scenes/sphere.ron")),
+    ("almond", include_str!("../../scenes/almond.ron")),
+    ("oval", include_str!("../../scenes/oval.ron")),
+    ("triangular", include_str!("../../scenes/triangular.ron")),
+    ("capsule", include_str!("../../scenes/capsule.ron")),
+    ("bullet", include_str!("../../scenes/bullet.ron")),
+    ("half_moon", include_str!("../../scenes/half_moon.ron")),
+    ("shield", include_str!("../../scenes/shield.ron")),
+    ("flat", include_str!("../../scenes/flat.ron")),
+];
 
 /// The text of a scene, overrides put in.
 #[derive(Debug, Clone, PartialEq)]

@@ -87,13 +87,18 @@ fn the_reference_names_every_key() {
 
 #[test]
 fn embedded_scenes_are_the_shipped_ones() {
-    for name in ["round", "sphere"] {
+    for name in ["round", "sphere", "almond", "flat"] {
         let shipped =
             fs::read_to_string(folder("scenes").join(name).with_extension("ron")).expect("is shipped");
         let embedded = SceneText::embedded(name, &[]).expect("is embedded");
         assert_eq!(embedded.text(), shipped);
         assert!(embedded.scene().is_ok());
     }
-    let faults = Scene::embedded("almond").expect_err("is not embedded");
-    assert_eq!(messages(&faults), ["almond: no scene of that name is built in; known: round, sphere"]);
+    let faults = Scene::embedded("heart").expect_err("is not embedded");
+    assert_eq!(
+        messages(&faults),
+        [
+            "heart: no scene of that name is built in; known: round, sphere, almond, oval, triangular, capsule, bullet, half_moon, shield, flat"
+        ]
+    );
 }
