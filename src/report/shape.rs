@@ -21,7 +21,7 @@ pub fn shape_page(
     let scale = map::Scale::over(std::iter::once(&gaps));
     let picture = chart("shape", &map::panel_map(surface, &gaps, "µm", scale, map::Size::Large));
     let rows: Vec<(String, String)> = rows.iter().map(|(n, v)| (escape(n), escape(v))).collect();
-    let mut content = format!("<div class=\"pair\"><div>{picture}</div><div>{}</div></div>\n", table(&rows));
+    let mut content = format!("{picture}<div class=\"sheet\">{}</div>\n", table(&rows));
     if !errors.is_empty() {
         content += &chart("errors", &error_plot(errors));
     }
