@@ -47,7 +47,9 @@ fn coats(name: &str, overrides: &[&str]) -> Value {
     let results = record["results"].clone();
     let number = |key: &str| results[key].as_f64().unwrap_or_else(|| panic!("{key} is a number"));
     assert!(number("cov_identity_residual") < 1e-9);
-    assert!((30.0..55.0).contains(&number("angle_of_repose_deg")) || name == "sphere");
+    // Baffles lift a small batch in one piece; spheres roll.
+    let steepest = if scene.batches[0].count > 500 { 55.0 } else { 75.0 };
+    assert!((30.0..steepest).contains(&number("angle_of_repose_deg")) || name == "sphere");
     assert!((0.8..4.0).contains(&number("cov_intra")), "{}", number("cov_intra"));
     assert!((0.2..2.0).contains(&number("cov_inter")), "{}", number("cov_inter"));
     results
