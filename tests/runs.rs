@@ -70,8 +70,8 @@ fn round_tablets_get_more_on_their_caps() {
 ///   10.9 with the CoV_inter below.
 /// - CoV_inter² + 1 = a/(A μ) with a = Σaᵢ²/Σaᵢ, the visible projected area of tablet i weighted by itself. Whole and
 ///   unshadowed tablets at random have a = A/4 (Cauchy), hence 6.1; but of a width s in a window W a border leaves
-///   s (1 − s/3W), here 0.82 of a in both directions, hence 5.5 at most. Shadows leave less; below 4.2 most tablets
-///   in sight would be hidden by half.
+///   s (1 − s/3W), here 0.82 of a in both directions, hence 5.5; with all caps up it would be 6.5. Tablets here lie between, and
+///   shadows take from both: what is found has to stay below the 5.5 and above 4.2, half of a hidden.
 #[test]
 fn the_first_frame_has_the_variation_that_geometry_gives() {
     let record = run("round", "0.02", &["shapes.round.spheres=12"]);

@@ -134,15 +134,17 @@ pub(super) struct CompareArgs {
     pub(super) out: PathBuf,
 }
 
-/// A number above 0.
 fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse().map_err(|_| "expected a number such as 0.1".to_owned())?;
-    if share > 0.0 && f64::is_finite(share) { Ok(share) } else { Err("must be above 0".to_owned()) }
+    above_zero(text, "a number such as 0.1")
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
-    let seconds = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
-    if seconds > 0.0 && f64::is_finite(seconds) { Ok(seconds) } else { Err("must be above 0".to_owned()) }
+    above_zero(text, "a number of seconds")
+}
+
+fn above_zero(text: &str, what: &str) -> Result<f64, String> {
+    let value = text.parse().map_err(|_| format!("expected {what}"))?;
+    if value > 0.0 && f64::is_finite(value) { Ok(value) } else { Err("must be above 0".to_owned()) }
 }
 
 /// `90s`, `30m`, `2h`, or a number of seconds.

@@ -3,7 +3,7 @@
 use super::args::PredictArgs;
 use super::failure::Failure;
 use super::print_line;
-use crate::models::{Asymptote, tablets_to_measure};
+use crate::models::{Asymptote, sample_sd, tablets_to_measure};
 use crate::report::{Limit, ReportData, ShapeCoating};
 
 pub(super) fn predict(args: &PredictArgs) -> Result<(), Failure> {
@@ -86,11 +86,9 @@ fn to_measure(shape: &ShapeCoating, error: f64) -> Vec<Line> {
     let covs: Vec<f64> = shape.tablets.iter().filter_map(|t| t.cov_intra).collect();
     let means: Vec<f64> = shape.tablets.iter().map(|t| t.mean_thickness_um).collect();
     let line = |name, values: &[f64]| {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let sd = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
-        let tablets = tablets_to_measure(sd / mean, error);
-        (sd.is_finite() && mean > 0.0).then(|| (name, format!("{tablets} for +-{:.0} %", 100.0 * error)))
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let sd = sample_sd(values).filter(|_| mean > 0.0)?;
+        Some((name, format!("{} for +-{:.0} %", tablets_to_measure(sd / mean, error), 100.0 * error)))
     };
     [line("to measure, thickness", &means), line("to measure, CoV_intra,i", &covs)]
         .into_iter()

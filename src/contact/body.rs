@@ -27,7 +27,7 @@ impl Outline {
         let max = corner(1.0).into_iter().reduce(|a, b| a.sup(&b)).unwrap_or_default();
         Self {
             bounding_radius: clump.bounding_radius(),
-            reach: clump.spheres.iter().map(|s| s.center.norm()).fold(0.0, f64::max),
+            reach: clump.reach(),
             spheres: clump.spheres.clone(),
             min,
             max,

@@ -92,6 +92,7 @@ impl Setting<'_> {
 
 /// Skin of the candidates, in skins: they are found anew so many times more rarely than lists are.
 const WIDE: f64 = 6.0;
+
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
         Self { a, b, quiet: f64::NEG_INFINITY }

@@ -220,7 +220,7 @@ pub(super) fn area_moments(thickness: &[f64], areas: &[f64]) -> (f64, f64) {
 }
 
 /// Standard deviation with divisor n − 1; `None` below two values.
-pub(super) fn sample_sd(values: &[f64]) -> Option<f64> {
+pub fn sample_sd(values: &[f64]) -> Option<f64> {
     let n = values.len() as f64;
     if values.len() < 2 {
         return None;

@@ -29,7 +29,7 @@ mod trial_process;
 
 pub use asymptote::Asymptote;
 pub use asymptote_estimate::AsymptoteEstimate;
-pub use averaging::{BatchStatistics, Identities, TabletMoments};
+pub use averaging::{BatchStatistics, Identities, TabletMoments, sample_sd};
 pub use bootstrap::{Bootstrap, Interval, quantile};
 pub use coat_map::{Amount, CoatMap};
 pub use normality::AndersonDarling;

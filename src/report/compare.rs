@@ -4,12 +4,13 @@ use super::charts::ink;
 use super::html::{chart, escape, section};
 use super::number::significant;
 use super::page::document;
+use super::tablet_charts::{axis, layout};
 use super::{Limit, ReportData, ThicknessMap};
 use crate::models::Spearman;
 use nalgebra::Vector3;
-use plotly::common::{ErrorData, ErrorType, Font, Marker, Mode, Title};
-use plotly::layout::{Axis, Margin, RangeMode};
-use plotly::{Layout, Plot, Scatter};
+use plotly::common::{ErrorData, ErrorType, Marker, Mode};
+use plotly::layout::RangeMode;
+use plotly::{Plot, Scatter};
 use std::f64::consts::PI;
 
 /// One shape of one run.
@@ -141,13 +142,6 @@ fn against(shapes: &[ComparedShape], k: usize) -> Plot {
         names.push(name);
     }
     let bars = ErrorData::new(ErrorType::Data).array(up).array_minus(down).symmetric(false).color(ink::GUIDE);
-    let axis = |title: &str| {
-        Axis::new()
-            .title(Title::with_text(title))
-            .grid_color(ink::GRID)
-            .line_color(ink::GUIDE)
-            .zero_line(false)
-    };
     let mut plot = Plot::new();
     plot.add_trace(
         Scatter::new(x, y)
@@ -158,15 +152,7 @@ fn against(shapes: &[ComparedShape], k: usize) -> Plot {
             .error_y(bars)
             .show_legend(false),
     );
-    plot.set_layout(
-        Layout::new()
-            .x_axis(axis(MEASURES[k]))
-            .y_axis(axis("limit of CoV<sub>intra</sub>").range_mode(RangeMode::ToZero))
-            .height(300)
-            .font(Font::new().family("system-ui, sans-serif").size(12).color(ink::TEXT))
-            .paper_background_color("#ffffff")
-            .plot_background_color("#ffffff")
-            .margin(Margin::new().left(56).right(12).top(28).bottom(48)),
-    );
+    let limit = "limit of CoV<sub>intra</sub>";
+    plot.set_layout(layout(MEASURES[k], limit).y_axis(axis(limit).range_mode(RangeMode::ToZero)));
     plot
 }

@@ -3,10 +3,11 @@
 use super::charts::ink;
 use super::html::{chart, escape, section, table};
 use super::page::document;
+use super::tablet_charts::{axis, layout};
 use super::{ThicknessMap, map};
-use plotly::common::{Font, Line, Mode, Title};
-use plotly::layout::{Axis, AxisType, Margin};
-use plotly::{Layout, Plot, Scatter};
+use plotly::common::{Line, Mode};
+use plotly::layout::AxisType;
+use plotly::{Plot, Scatter};
 
 /// The page of the shape `name`: `gaps` are the distances from each panel to the clump, µm; `rows` are measures in words;
 /// `errors` are sphere counts with mean and largest distance, µm, and may be empty.
@@ -41,22 +42,8 @@ fn error_plot(errors: &[[f64; 3]]) -> Plot {
         let line = Line::new().color(ink).width(2.0);
         plot.add_trace(Scatter::new(column(0), column(k)).mode(Mode::LinesMarkers).name(name).line(line));
     }
-    let axis = |title: &str| {
-        Axis::new()
-            .title(Title::with_text(title))
-            .type_(AxisType::Log)
-            .grid_color(ink::GRID)
-            .line_color(ink::GUIDE)
-    };
-    plot.set_layout(
-        Layout::new()
-            .x_axis(axis("spheres"))
-            .y_axis(axis("distance of surface and clump, µm"))
-            .height(340)
-            .font(Font::new().family("system-ui, sans-serif").size(12).color(ink::TEXT))
-            .paper_background_color("#ffffff")
-            .plot_background_color("#ffffff")
-            .margin(Margin::new().left(64).right(12).top(28).bottom(48)),
-    );
+    let (x, y) = ("spheres", "distance of surface and clump, µm");
+    let log = |title| axis(title).type_(AxisType::Log);
+    plot.set_layout(layout(x, y).x_axis(log(x)).y_axis(log(y)));
     plot
 }

@@ -65,11 +65,13 @@ pub(super) fn mean_and_sd(values: &[f64]) -> (f64, f64) {
     (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt())
 }
 
-fn axis(title: &str) -> Axis {
+/// An axis as all small charts have it.
+pub(super) fn axis(title: &str) -> Axis {
     Axis::new().title(Title::with_text(title)).grid_color(ink::GRID).line_color(ink::GUIDE).zero_line(false)
 }
 
-fn layout(x: &str, y: &str) -> Layout {
+/// The layout of a small chart, by what its axes say.
+pub(super) fn layout(x: &str, y: &str) -> Layout {
     Layout::new()
         .x_axis(axis(x))
         .y_axis(axis(y))

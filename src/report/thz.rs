@@ -5,7 +5,7 @@ use super::number::{percent, significant};
 use super::page::document;
 use super::{ThicknessMap, map, tablet_charts};
 use crate::models::thz::{ThzComparison, ThzMap};
-use crate::models::{ModelError, RegionMeans, TabletSurface};
+use crate::models::{ModelError, RegionMeans, TabletSurface, sample_sd};
 
 /// Bins of the profiles round the band and across the caps.
 const BINS: usize = 24;
@@ -28,8 +28,7 @@ pub struct ThzSide<'a> {
 impl ThzSide<'_> {
     /// Standard deviation of the mean cap over band of as many simulated tablets as were measured.
     fn spread(&self) -> Option<f64> {
-        let (_, sd) = (self.tablets.len() > 1).then(|| tablet_charts::mean_and_sd(self.tablets))?;
-        Some(sd / (self.scans.len() as f64).sqrt())
+        sample_sd(self.tablets).map(|sd| sd / (self.scans.len() as f64).sqrt())
     }
 
     /// The figures of the comparison, in words.

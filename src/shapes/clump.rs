@@ -38,6 +38,11 @@ impl Clump {
         self.spheres.iter().map(|s| s.center.norm() + s.radius).fold(0.0, f64::max)
     }
 
+    /// Largest distance of a sphere's centre from the centre of mass, m.
+    pub fn reach(&self) -> f64 {
+        self.spheres.iter().map(|s| s.center.norm()).fold(0.0, f64::max)
+    }
+
     /// Radius of the smallest sphere, m.
     pub fn smallest_radius(&self) -> f64 {
         self.spheres.iter().map(|s| s.radius).fold(f64::INFINITY, f64::min)

@@ -126,11 +126,10 @@ impl World {
             .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS);
         let collider = self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.tablets.push((handle, collider));
-        let reach = clump.spheres.iter().map(|s| s.center.norm()).fold(0.0, f64::max);
         self.tracks.push(Track {
             known: Relative::NOWHERE,
             margin: 0.0,
-            reach,
+            reach: clump.reach(),
             bounding_radius: clump.bounding_radius(),
             mark: f64::NEG_INFINITY,
         });
