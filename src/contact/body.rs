@@ -1,7 +1,6 @@
 //! What contact knows of each body beside its motion.
 
 use crate::shapes::{Clump, Sphere};
-use crate::world::Relative;
 use nalgebra::Vector3;
 
 /// A clump prepared for list building.
@@ -12,45 +11,46 @@ pub(super) struct Outline {
     pub bounding_radius: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
     pub reach: f64,
-    /// Box about the spheres, body axes, m.
-    pub min: Vector3<f64>,
-    /// Its other corner, m.
-    pub max: Vector3<f64>,
+    /// Centres x, y, z and radii by turns, m. Places left over hold a sphere of radius −∞.
+    turns: Vec<f32>,
 }
+
+/// Spheres are stored in multiples of this number.
+const EIGHT: usize = 8;
 
 impl Outline {
     pub(super) fn new(clump: &Clump) -> Self {
-        let corner = |sign: f64| {
-            clump.spheres.iter().map(|s| s.center + Vector3::repeat(sign * s.radius)).collect::<Vec<_>>()
+        let padded = clump.spheres.len().next_multiple_of(EIGHT);
+        let lay = |of: fn(&Sphere) -> f64, rest: f32| {
+            (0..padded).map(move |k| clump.spheres.get(k).map_or(rest, |sphere| of(sphere) as f32))
         };
-        let min = corner(-1.0).into_iter().reduce(|a, b| a.inf(&b)).unwrap_or_default();
-        let max = corner(1.0).into_iter().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+        let centers =
+            lay(|s| s.center.x, 0.0).chain(lay(|s| s.center.y, 0.0)).chain(lay(|s| s.center.z, 0.0));
         Self {
             bounding_radius: clump.bounding_radius(),
             reach: clump.reach(),
+            turns: centers.chain(lay(|s| s.radius, f32::NEG_INFINITY)).collect(),
             spheres: clump.spheres.clone(),
-            min,
-            max,
         }
     }
 
-    /// At most the gap between this body and another one seen from it, m: what its bounding spheres leave, or the best
-    /// of six separating planes along the axes of the two bodies' boxes.
-    pub(super) fn apart(&self, other: &Self, at: &Relative) -> f64 {
-        let half = |o: &Self| (o.max - o.min) * 0.5;
-        let middle = |o: &Self| (o.max + o.min) * 0.5;
-        let between = at.position + at.rotation * middle(other) - middle(self);
-        let turned = at.rotation.abs();
-        let mine = between.abs() - half(self) - turned * half(other);
-        let theirs = at.rotation.tr_mul(&between).abs() - half(other) - turned.tr_mul(&half(self));
-        let balls = at.position.norm() - self.bounding_radius - other.bounding_radius;
-        balls.max(mine.max()).max(theirs.max())
+    /// Number of spheres with the places left over.
+    #[inline(always)]
+    pub(super) fn padded(&self) -> usize {
+        self.turns.len() / 4
     }
 
-    /// Whether a sphere of the given centre (body axes) and radius comes closer than `margin` to the box.
-    #[inline]
-    pub(super) fn near(&self, center: &Vector3<f64>, margin: f64) -> bool {
-        (0..3).all(|k| center[k] > self.min[k] - margin && center[k] < self.max[k] + margin)
+    /// Centres along x, y and z, body axes, m.
+    #[inline(always)]
+    pub(super) fn centers(&self) -> [&[f32]; 3] {
+        let padded = self.padded();
+        std::array::from_fn(|axis| &self.turns[axis * padded..(axis + 1) * padded])
+    }
+
+    /// Radii, m.
+    #[inline(always)]
+    pub(super) fn radii(&self) -> &[f32] {
+        &self.turns[3 * self.padded()..]
     }
 }
 

@@ -1,10 +1,12 @@
 //! All contacts of a run.
 
+use super::arms::Arms;
 use super::body::{BodyConstants, Outline};
 use super::law::PairLaw;
+use super::memory::{Contact, Memory};
 use super::pairs::{BodyPair, PairWatch, Setting};
-use super::resolve::{Exchange, Place};
 use super::surface::Surface;
+use super::tasks::{Desk, PairTask, Turning, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::{DampingMass, Scene};
 use crate::shapes::{SurfaceMesh, TabletShape};
@@ -12,14 +14,11 @@ use crate::world::{Motion, World};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Lists keep sphere pairs with a gap below this share of the largest bounding radius. Small skins are used up quickly
-/// and lists are rebuilt often; large ones hold many pairs that do not touch.
+/// The common skin of lists, as a share of the largest bounding radius. Small skins are used up quickly and lists are
+/// rebuilt often; large ones hold many pairs that do not touch.
 const SKIN: f64 = 0.02;
 /// Pairs that one task takes: a fixed number, so that results do not depend on the number of threads.
 const CHUNK: usize = 512;
-
-/// Watches, their lists and what of them touches.
-type Task<'a, Watch, List> = ((&'a mut [Watch], &'a mut [List]), &'a mut Vec<(u32, u32, Exchange)>);
 
 /// Force and torque on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +64,7 @@ pub struct Tally {
 pub struct ContactField {
     outlines: Vec<Outline>,
     bodies: Vec<BodyConstants>,
+    arms: Vec<Arms>,
     laws: Vec<PairLaw>,
     materials: usize,
     damping: DampingMass,
@@ -77,10 +77,10 @@ pub struct ContactField {
     wall_watches: Vec<WallWatch>,
     /// The lists of `wall_watches`, in the same order.
     walls: Vec<WallList>,
-    /// What touched in the last step, by task: bodies a and b.
-    touching: Vec<Vec<(u32, u32, Exchange)>>,
-    /// Likewise body and surface.
-    touching_walls: Vec<Vec<(u32, u32, Exchange)>>,
+    /// One for each task over pairs.
+    desks: Vec<Desk>,
+    /// One for each task over walls.
+    wall_desks: Vec<Desk>,
     /// Torque on each surface about its own origin in the last step, N m.
     surface_torques: Vec<Vector3<f64>>,
 }
@@ -98,6 +98,7 @@ impl ContactField {
         Self {
             outlines,
             bodies: Vec::new(),
+            arms: Vec::new(),
             laws: laws.collect(),
             materials: n,
             damping: scene.contact.damping_mass,
@@ -107,8 +108,8 @@ impl ContactField {
             boundaries: Vec::new(),
             wall_watches: Vec::new(),
             walls: Vec::new(),
-            touching: Vec::new(),
-            touching_walls: Vec::new(),
+            desks: Vec::new(),
+            wall_desks: Vec::new(),
             surface_torques: Vec::new(),
         }
     }
@@ -120,6 +121,7 @@ impl ContactField {
         let inverse_mass = 1.0 / mass;
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
+        self.arms.push(Arms::new());
         let surfaces = self.boundaries.len() as u32;
         self.wall_watches.extend((0..surfaces).map(|surface| WallWatch::new(body, surface)));
         self.walls.resize(self.wall_watches.len(), WallList::new());
@@ -152,6 +154,16 @@ impl ContactField {
             same.unwrap_or_else(|| (PairWatch::new(a, b), Box::new(BodyPair::new())))
         });
         (self.watches, self.pairs) = kept.unzip();
+        let mut contacts = self.desks.iter().flat_map(|desk| desk.memory.now.clone()).peekable();
+        let memories = self.watches.chunks(CHUNK).map(|chunk| {
+            let last = chunk[chunk.len() - 1].key();
+            Memory::of(std::iter::from_fn(|| contacts.next_if(|c| (c.key.0, c.key.1) <= last)).collect())
+        });
+        let memories: Vec<_> = memories.collect();
+        self.desks.resize_with(memories.len(), Desk::default);
+        for (desk, memory) in self.desks.iter_mut().zip(memories) {
+            desk.memory = memory;
+        }
     }
 
     /// Forces and torques of all contacts, added to `wrenches` in the order of pairs and bodies whatever the number of
@@ -167,88 +179,76 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
+        let (outlines, bodies) = (&self.outlines, &self.bodies);
+        let sets =
+            self.arms.par_chunks_mut(CHUNK).zip(motions.par_chunks(CHUNK)).zip(bodies.par_chunks(CHUNK));
+        sets.for_each(|((arms, motions), bodies)| {
+            pulp::Arch::new().dispatch(Turning { arms, motions, bodies, outlines });
+        });
         let setting = Setting {
-            outlines: &self.outlines,
-            bodies: &self.bodies,
+            outlines,
+            bodies,
             motions,
+            arms: &self.arms,
             odometers: world.odometers(),
-            laws: &self.laws,
             materials: self.materials,
-            damping: self.damping,
             skin: self.skin,
             dt,
         };
-        let boundaries = &self.boundaries;
-        let facets = |surface: &Boundary, min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
-            world.facets_near(surface.mesh, min, max, out);
+        let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
+        let pairs = |((watches, lists), desk)| {
+            pulp::Arch::new().dispatch(PairTask { watches, lists, desk, setting: &setting, laws, damping });
         };
-        let pairs = |((watches, pairs), touching): Task<'_, PairWatch, Box<BodyPair>>| {
-            let (mut near, mut places) = (Vec::new(), Vec::<Place>::new());
-            touching.clear();
-            let mut rebuilt = 0;
-            let alert = watches.iter_mut().zip(pairs).filter(|(w, _)| w.alert(setting.odometers));
-            for (watch, pair) in alert {
-                rebuilt += u32::from(pair.refresh(watch, &setting, &mut near));
-                let exchange = pair.evaluate(watch, &setting, &mut places);
-                touching.extend(exchange.map(|e| (watch.a, watch.b, e)));
-            }
-            rebuilt
+        let walls = |((watches, lists), desk)| {
+            let task = WallTask { watches, lists, desk, setting: &setting, laws, damping, boundaries, world };
+            pulp::Arch::new().dispatch(task);
         };
-        let walls = |((watches, walls), touching): Task<'_, WallWatch, WallList>| {
-            let (mut near, mut places) = (Vec::new(), Vec::<Place>::new());
-            touching.clear();
-            let alert = watches.iter_mut().zip(walls).filter(|(w, _)| w.alert(setting.odometers));
-            for (watch, wall) in alert {
-                let boundary = &boundaries[watch.surface as usize];
-                wall.refresh(watch, &setting, boundary, facets, &mut near);
-                let exchange = wall.evaluate(watch, &setting, boundary, &mut places);
-                touching.extend(exchange.map(|e| (watch.body, watch.surface, e)));
-            }
-        };
-        self.touching.resize_with(self.watches.len().div_ceil(CHUNK), Vec::new);
-        self.touching_walls.resize_with(self.walls.len().div_ceil(CHUNK), Vec::new);
+        self.wall_desks.resize_with(self.walls.len().div_ceil(CHUNK), Desk::default);
         let pair_lists = self.watches.par_chunks_mut(CHUNK).zip(self.pairs.par_chunks_mut(CHUNK));
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
-        let (rebuilt, ()) = rayon::join(
-            || pair_lists.zip(&mut self.touching).map(pairs).sum::<u32>(),
-            || wall_lists.zip(&mut self.touching_walls).for_each(walls),
+        rayon::join(
+            || pair_lists.zip(&mut self.desks).for_each(pairs),
+            || wall_lists.zip(&mut self.wall_desks).for_each(walls),
         );
-        self.gather(rebuilt, wrenches)
+        self.gather(wrenches)
     }
 
     /// Sums over what touches in the order of the lists: the same bits for any number of threads.
-    fn gather(&mut self, rebuilt: u32, wrenches: &mut [Wrench]) -> Tally {
-        let mut tally = Tally { rebuilt, ..Tally::default() };
+    fn gather(&mut self, wrenches: &mut [Wrench]) -> Tally {
+        let mut tally = Tally::default();
         for torque in &mut self.surface_torques {
             *torque = Vector3::zeros();
         }
-        for (body, surface, exchange) in self.touching_walls.iter().flatten() {
-            let body = &mut wrenches[*body as usize];
+        for exchange in self.wall_desks.iter().flat_map(|desk| &desk.touching) {
+            let body = &mut wrenches[exchange.a as usize];
             body.force -= exchange.force;
             body.torque += exchange.torque_a;
-            self.surface_torques[*surface as usize] += exchange.torque_b;
+            self.surface_torques[exchange.b as usize] += exchange.torque_b;
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
         }
-        for (a, b, exchange) in self.touching.iter().flatten() {
-            let a = &mut wrenches[*a as usize];
-            a.force -= exchange.force;
-            a.torque += exchange.torque_a;
-            let b = &mut wrenches[*b as usize];
-            b.force += exchange.force;
-            b.torque += exchange.torque_b;
-            tally.sphere_contacts += exchange.contacts;
-            tally.deepest = tally.deepest.max(exchange.deepest);
+        for desk in &mut self.desks {
+            tally.rebuilt += std::mem::take(&mut desk.scratch.rebuilt);
+            for exchange in &desk.touching {
+                let a = &mut wrenches[exchange.a as usize];
+                a.force -= exchange.force;
+                a.torque += exchange.torque_a;
+                let b = &mut wrenches[exchange.b as usize];
+                b.force += exchange.force;
+                b.torque += exchange.torque_b;
+                tally.sphere_contacts += exchange.contacts;
+                tally.deepest = tally.deepest.max(exchange.deepest);
+            }
         }
         tally
     }
 
     /// The deepest contact of the last step: its body, and the other body or the surface.
     pub fn deepest(&self) -> Option<(usize, Partner)> {
-        let pairs = self.touching.iter().flatten();
-        let pairs = pairs.map(|(a, b, e)| (e.deepest, *a, Partner::Body(*b as usize)));
-        let walls = self.touching_walls.iter().flatten();
-        let walls = walls.map(|(body, s, e)| (e.deepest, *body, Partner::Surface(*s as usize)));
+        let pairs = self.desks.iter().flat_map(|desk| &desk.touching);
+        let pairs = pairs.map(|e| (e.deepest, e.a, Partner::Body(e.b as usize)));
+        let walls = self.wall_desks.iter().flat_map(|desk| &desk.touching);
+        let walls = walls.map(|e| (e.deepest, e.a, Partner::Surface(e.b as usize)));
         let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
         deepest.map(|(_, body, partner)| (body as usize, partner))
     }
@@ -260,9 +260,8 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let pairs = self.watches.iter().zip(&self.pairs).flat_map(|(w, p)| {
-            let touching = p.links.iter().filter(|l| l.touching);
-            touching.map(|l| (w.a, w.b, u32::from(l.i), u32::from(l.j), l.spring.stretch))
+        let pairs = self.desks.iter().flat_map(|desk| &desk.memory.now).map(|Contact { key, spring }| {
+            (key.0, key.1, u32::from(key.2), u32::from(key.3), spring.stretch)
         });
         let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
             let touching = list.grips.iter().filter(|g| g.touching);

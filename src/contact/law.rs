@@ -34,7 +34,7 @@ pub struct PairLaw {
     /// How the tangential spring follows the overlap.
     pub tangential: TangentialLaw,
     /// 2 √(5/6) β √(2 E*) and 2 √(5/6) β √(8 G*), Pa^½: dashpots per √(contact radius × mass).
-    dashpots: Dashpots,
+    pub(super) dashpots: Dashpots,
 }
 
 /// Tangential memory of a contact.
@@ -125,7 +125,7 @@ impl PairLaw {
     }
 
     /// Dashpots for the reduced mass `mass`, kg.
-    #[inline]
+    #[inline(always)]
     pub fn dashpots(&self, contact_radius: f64, mass: f64) -> Dashpots {
         let root = (contact_radius * mass).sqrt();
         Dashpots { normal: root * self.dashpots.normal, tangential: root * self.dashpots.tangential }
@@ -142,7 +142,7 @@ impl PairLaw {
     }
 
     /// Force on b; `spring` is carried from step to step of `dt` seconds and is updated.
-    #[inline]
+    #[inline(always)]
     pub fn force(
         &self,
         touch: &Touch,
@@ -171,9 +171,7 @@ impl PairLaw {
                 1.0
             }
             TangentialLaw::Rescaled => {
-                if contact_radius < spring.radius {
-                    stretch *= contact_radius / spring.radius;
-                }
+                stretch *= if contact_radius < spring.radius { contact_radius / spring.radius } else { 1.0 };
                 stretch += slip * (stiffness * dt);
                 1.0
             }
@@ -181,9 +179,7 @@ impl PairLaw {
         let limit = self.friction * normal.abs();
         let held = scale * stretch.norm();
         let sliding = held > limit;
-        if sliding {
-            stretch *= limit / held;
-        }
+        stretch *= if sliding { limit / held } else { 1.0 };
         *spring = Spring { stretch, radius: contact_radius };
         let dashpot = if sliding { 0.0 } else { dashpots.tangential };
         ContactForce { normal, tangential: -(stretch * scale) - slip * dashpot, sliding }
@@ -205,14 +201,10 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 /// The spring turned with the contact: about n by `angle` (rad), then into the new tangent plane, keeping its length.
 ///
 /// Source: Luding 2008, Granular Matter 10, 235, section 3.2, with the twirl about n added.
-#[inline]
+#[inline(always)]
 fn carried(stretch: &Vector3<f64>, n: &Vector3<f64>, angle: f64) -> Vector3<f64> {
-    let length2 = stretch.norm_squared();
-    if length2 == 0.0 {
-        return *stretch;
-    }
     let turned = stretch + n.cross(stretch) * angle;
     let flat = turned - n * turned.dot(n);
     let flat2 = flat.norm_squared();
-    if flat2 == 0.0 { flat } else { flat * (length2 / flat2).sqrt() }
+    flat * if flat2 > 0.0 { (stretch.norm_squared() / flat2).sqrt() } else { 1.0 }
 }

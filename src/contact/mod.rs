@@ -4,13 +4,17 @@
 //! increments are taken at one time level; each contact has one common point for both bodies, so that angular momentum is
 //! conserved to round-off.
 
+mod arms;
+mod batch;
 mod body;
 mod field;
 mod law;
 mod lease;
+mod memory;
 mod pairs;
-mod resolve;
+mod side;
 mod surface;
+mod tasks;
 mod walls;
 
 pub use field::{ContactField, Partner, Tally, Wrench};

@@ -1,36 +1,22 @@
 //! Two bodies near each other: the list of sphere pairs that may touch, its budget, and its forces.
 //!
 //! Most of the bed turns as a solid, so neighbours hardly move against each other. A list holds the sphere pairs with a
-//! gap below the skin and stays valid until the bodies' *relative* motion has used the skin up. Tests of growing cost
+//! gap below a skin and stays valid until the bodies' *relative* motion has used the skin up. Tests of growing cost
 //! watch over that: the sum of both odometers (motion against the turning drum) against a mark; the exact relative
-//! displacement since the list was built; a new list from the candidates, which are the sphere pairs within a wider
-//! skin; new candidates from all spheres.
+//! displacement since the list was built; a new list.
+//!
+//! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
+//! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
+use super::arms::{Arms, Extents, arm};
+use super::batch::{Batch, Place};
 use super::body::{BodyConstants, Outline};
-use super::law::{PairLaw, Spring};
 use super::lease::Lease;
-use super::resolve::{Exchange, Partner, Place, Remembers, resolve};
-use crate::scene::DampingMass;
-use crate::world::{Motion, Relative};
-use nalgebra::Vector3;
+use super::memory::Memory;
+use super::side::Side;
+use crate::world::Motion;
+use nalgebra::{Matrix3, Vector3};
 use smallvec::SmallVec;
-
-/// Two spheres that may touch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Link {
-    pub i: u16,
-    pub j: u16,
-    pub touching: bool,
-    /// Sum of the odometers up to which the spheres cannot touch, m: where they last were, plus the gap there.
-    until: f64,
-    pub spring: Spring,
-}
-
-impl Remembers for Link {
-    fn spring(&mut self) -> &mut Spring {
-        &mut self.spring
-    }
-}
 
 /// What is read of every near pair in every step: kept apart from the lists, which most pairs do not need.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,17 +28,17 @@ pub(super) struct PairWatch {
     quiet: f64,
 }
 
-/// The list of two bodies.
+/// The list of two bodies. What is read while it is good lies in its first 64 bytes.
 #[derive(Debug, Clone, PartialEq)]
+#[repr(C, align(64))]
 pub(super) struct BodyPair {
-    /// Sorted by (i, j).
-    pub links: SmallVec<[Link; 4]>,
     /// Sum of the odometers up to which the list is complete, m.
     mark: f64,
+    /// Spheres i of a and j of b that may touch, sorted.
+    links: SmallVec<[(u16, u16); 9]>,
     listed: Lease,
-    /// Sphere pairs that were near when they were `sought`; sorted.
-    candidates: Vec<(u16, u16)>,
-    sought: Lease,
+    /// Unit vector from a to b along which their surfaces were nearest, a's axes.
+    axis: Vector3<f64>,
 }
 
 /// What a pair reads while it works.
@@ -60,12 +46,10 @@ pub(super) struct Setting<'a> {
     pub outlines: &'a [Outline],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
+    pub arms: &'a [Arms],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
-    /// Laws by material pair, `materials × materials`.
-    pub laws: &'a [PairLaw],
     pub materials: usize,
-    pub damping: DampingMass,
     pub skin: f64,
     pub dt: f64,
 }
@@ -75,13 +59,15 @@ impl Setting<'_> {
         &self.outlines[self.bodies[body].shape]
     }
 
-    pub(super) fn law(&self, a: usize, b: usize) -> &PairLaw {
-        &self.laws[a * self.materials + b]
+    /// Index of the law of two materials.
+    pub(super) fn law(&self, a: usize, b: usize) -> usize {
+        a * self.materials + b
     }
 
-    pub(super) fn partner(&self, body: usize) -> Partner<'_> {
+    #[inline]
+    pub(super) fn side(&self, body: usize) -> Side<'_> {
         let constants = &self.bodies[body];
-        Partner {
+        Side {
             motion: &self.motions[body],
             inverse_mass: constants.inverse_mass,
             inverse_inertia: constants.inverse_inertia,
@@ -90,8 +76,19 @@ impl Setting<'_> {
     }
 }
 
-/// Skin of the candidates, in skins: they are found anew so many times more rarely than lists are.
-const WIDE: f64 = 6.0;
+/// Memory that one pair after another works in.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    extents: [Extents; 2],
+    near: Vec<(u16, Vector3<f32>, f32)>,
+    pub places: Vec<Place>,
+    /// Facets near a body.
+    pub facets: Vec<u32>,
+    /// Pairs to look at, and whether their lists are worn.
+    pub alert: Vec<(u32, bool)>,
+    /// Lists built anew so far.
+    pub rebuilt: u32,
+}
 
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
@@ -116,173 +113,154 @@ impl PairWatch {
 
 impl BodyPair {
     pub(super) fn new() -> Self {
-        Self {
-            links: SmallVec::new(),
-            mark: f64::NEG_INFINITY,
-            listed: Lease::NONE,
-            candidates: Vec::new(),
-            sought: Lease::NONE,
-        }
+        Self { mark: f64::NEG_INFINITY, links: SmallVec::new(), listed: Lease::NONE, axis: Vector3::zeros() }
     }
 
-    /// Makes sure that every sphere pair that touches is in the list. True if the list was built anew.
+    /// Whether the list may lack something.
     #[inline]
-    pub(super) fn refresh(
-        &mut self,
-        watch: &PairWatch,
-        setting: &Setting<'_>,
-        near: &mut Vec<(u16, Vector3<f64>)>,
-    ) -> bool {
-        let travelled = watch.travelled(setting.odometers);
-        if travelled <= self.mark {
-            return false;
-        }
-        let (a, b) = (watch.a as usize, watch.b as usize);
-        let now = setting.motions[b].seen_from(&setting.motions[a]);
-        let (oa, ob) = (setting.outline(a), setting.outline(b));
-        let left = self.listed.left(&now, ob.reach);
-        if self.listed.holds(left) {
-            self.mark = travelled + left;
-            return false;
-        }
-        if self.sought.left(&now, ob.reach) < setting.skin {
-            self.seek(oa, ob, now, WIDE * setting.skin, near);
-        }
-        // What is no candidate has at least this gap.
-        self.listed = Lease { at: now, allowance: self.sought.left(&now, ob.reach) };
-        self.list(oa, ob, setting.skin, travelled);
-        self.mark = travelled + self.listed.allowance;
-        true
+    pub(super) fn worn(&self, watch: &PairWatch, odometers: &[f64]) -> bool {
+        watch.travelled(odometers) > self.mark
     }
 
-    /// Finds the candidates, with gaps below `width`. `near` is scratch: b's spheres near a's box, in a's axes.
-    fn seek(
-        &mut self,
-        oa: &Outline,
-        ob: &Outline,
-        at: Relative,
-        width: f64,
-        near: &mut Vec<(u16, Vector3<f64>)>,
-    ) {
-        let Relative { position, rotation } = at;
-        let apart = oa.apart(ob, &at);
-        self.sought = Lease { at, allowance: width.max(apart) };
-        self.candidates.clear();
-        near.clear();
-        if apart > width {
-            return;
-        }
-        let (mut min, mut max) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
-        for (j, sphere) in ob.spheres.iter().enumerate() {
-            let center = position + rotation * sphere.center;
-            if oa.near(&center, sphere.radius + width) {
-                min = min.inf(&center.add_scalar(-sphere.radius));
-                max = max.sup(&center.add_scalar(sphere.radius));
-                near.push((j as u16, center));
-            }
-        }
-        for (i, sphere) in oa.spheres.iter().enumerate() {
-            let margin = sphere.radius + width;
-            let c = &sphere.center;
-            if near.is_empty() || (0..3).any(|k| c[k] < min[k] - margin || c[k] > max[k] + margin) {
-                continue;
-            }
-            for (j, center) in near.iter() {
-                let reach = margin + ob.spheres[*j as usize].radius;
-                if (center - c).norm_squared() < reach * reach {
-                    self.candidates.push((i as u16, *j));
-                }
-            }
-        }
-    }
-
-    /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
-    fn list(&mut self, oa: &Outline, ob: &Outline, skin: f64, travelled: f64) {
-        let Lease { at: Relative { position, rotation }, allowance } = &mut self.listed;
-        let old = std::mem::take(&mut self.links);
-        let mut memory = old.iter().filter(|l| l.touching).peekable();
-        for &(i, j) in &self.candidates {
-            let (si, sj) = (&oa.spheres[i as usize], &ob.spheres[j as usize]);
-            let sum = si.radius + sj.radius;
-            let distance2 = (*position + *rotation * sj.center - si.center).norm_squared();
-            let reach = sum + *allowance;
-            if distance2 >= reach * reach {
-                continue;
-            }
-            let gap = distance2.sqrt() - sum;
-            if gap >= skin {
-                *allowance = gap;
-                continue;
-            }
-            while memory.next_if(|l| (l.i, l.j) < (i, j)).is_some() {}
-            let fresh = Link { i, j, touching: false, until: travelled + gap, spring: Spring::default() };
-            self.links.push(*memory.next_if(|l| (l.i, l.j) == (i, j)).unwrap_or(&fresh));
-        }
-    }
-
-    /// Forces of this step, if anything touches.
-    #[inline]
-    pub(super) fn evaluate(
+    /// Hands what touches to `batch` and `memory`; looks after a `worn` list first.
+    #[inline(always)]
+    pub(super) fn look(
         &mut self,
         watch: &mut PairWatch,
+        worn: bool,
         setting: &Setting<'_>,
-        places: &mut Vec<Place>,
-    ) -> Option<Exchange> {
+        scratch: &mut Scratch,
+        memory: &mut Memory,
+        batch: &mut Batch,
+    ) {
         let (a, b) = (watch.a as usize, watch.b as usize);
-        let (ca, cb) = (&setting.bodies[a], &setting.bodies[b]);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
-        let (sa, sb) = (&setting.outlines[ca.shape].spheres, &setting.outlines[cb.shape].spheres);
-        let between = mb.position - ma.position;
-        places.clear();
-        let mut deepest: f64 = 0.0;
+        let (oa, ob) = (setting.outline(a), setting.outline(b));
+        let (arms_a, arms_b) = (&setting.arms[a], &setting.arms[b]);
+        let offset = mb.position - ma.position;
+        let apart = offset.map(|x| x as f32);
         let travelled = watch.travelled(setting.odometers);
-        watch.quiet = self.mark;
-        for (k, link) in self.links.iter_mut().enumerate() {
-            if travelled < link.until {
-                watch.quiet = watch.quiet.min(link.until);
+        if worn {
+            let at = mb.seen_from(ma);
+            let mut left = self.listed.left(&at, ob.reach);
+            if !self.listed.holds(left) {
+                let skin = skin(setting, ma, mb, oa.reach + ob.reach);
+                self.listed = Lease { at, allowance: 0.0 };
+                self.list([(oa, arms_a), (ob, arms_b)], &ma.rotation, &apart, skin, scratch);
+                left = self.listed.allowance;
+                scratch.rebuilt += 1;
+            }
+            self.mark = travelled + left;
+        }
+        let Scratch { places, .. } = scratch;
+        places.clear();
+        let (ra, rb) = (oa.radii(), ob.radii());
+        let slack = ROUNDING * oa.bounding_radius.max(ob.bounding_radius) as f32;
+        let mut gap = f32::INFINITY;
+        for &(i, j) in &self.links {
+            let (i, j) = (i as usize, j as usize);
+            let reach = ra[i] + rb[j] + slack;
+            let distance2 = (apart + arm(arms_b, j) - arm(arms_a, i)).norm_squared();
+            if distance2 >= reach * reach {
+                gap = gap.min(distance2.sqrt() - reach);
                 continue;
             }
-            let (si, sj) = (&sa[link.i as usize], &sb[link.j as usize]);
-            let center_a = ma.rotation * si.center;
-            let center_b = mb.rotation * sj.center;
-            let d = between + center_b - center_a;
-            let sum = si.radius + sj.radius;
-            let distance2 = d.norm_squared();
-            if distance2 >= sum * sum {
-                if link.touching {
-                    link.touching = false;
-                    link.spring = Spring::default();
-                }
-                link.until = travelled + (distance2.sqrt() - sum);
-                watch.quiet = watch.quiet.min(link.until);
+            let (si, sj) = (&oa.spheres[i], &ob.spheres[j]);
+            let arm = ma.rotation * si.center;
+            let between = offset + mb.rotation * sj.center - arm;
+            let reach = si.radius + sj.radius;
+            let distance2 = between.norm_squared();
+            if distance2 >= reach * reach {
+                gap = 0.0;
                 continue;
             }
-            link.touching = true;
-            link.until = f64::NEG_INFINITY;
-            let distance = distance2.sqrt();
-            let normal = if distance > 0.0 { d / distance } else { Vector3::y() };
-            let overlap = sum - distance;
-            let radius = si.radius * sj.radius / sum;
-            deepest = deepest.max(overlap / si.radius.min(sj.radius));
-            let arm_a = center_a + normal * (si.radius - 0.5 * overlap);
-            let arm_b = arm_a - between;
+            let (ci, cj) = (1.0 / si.radius, 1.0 / sj.radius);
             places.push(Place {
-                link: k,
-                normal,
-                overlap,
-                contact_radius: (radius * overlap).sqrt(),
-                arm_a,
-                arm_b,
-                velocity: mb.velocity_at(&arm_b) - ma.velocity_at(&arm_a),
+                arm,
+                between: if distance2 > 0.0 { between } else { Vector3::y() * f64::EPSILON },
+                reach,
+                radius: si.radius,
+                curvature: ci + cj,
+                sharpness: ci.max(cj),
+                spring: memory.recall((watch.a, watch.b, i as u16, j as u16)),
             });
         }
         if places.is_empty() {
-            return None;
+            watch.quiet = self.mark.min(travelled + f64::from(gap));
+            return;
         }
         watch.quiet = f64::NEG_INFINITY;
-        let law = setting.law(ca.material, cb.material);
-        let sides = (setting.partner(a), setting.partner(b));
-        let exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.links);
-        Some(Exchange { deepest, ..exchange })
+        let law = setting.law(setting.bodies[a].material, setting.bodies[b].material);
+        batch.take((watch.a, watch.b), 0, law, (&setting.side(a), &setting.side(b)), places);
+    }
+
+    /// Lists the sphere pairs with a gap below the skin, m; `apart` leads from a's centre of mass to b's, m.
+    #[inline(always)]
+    fn list(
+        &mut self,
+        [(oa, arms_a), (ob, arms_b)]: [(&Outline, &Arms); 2],
+        axes: &Matrix3<f64>,
+        apart: &Vector3<f32>,
+        skin: f64,
+        scratch: &mut Scratch,
+    ) {
+        let Scratch { extents: [of_a, of_b], near, .. } = scratch;
+        if self.axis == Vector3::zeros() {
+            self.axis = self.listed.at.position.try_normalize(0.0).unwrap_or_else(Vector3::y);
+        }
+        let axis = (axes * self.axis).map(|x| x as f32);
+        of_a.along(&axis, oa, arms_a);
+        of_b.along(&-axis, ob, arms_b);
+        let slack = ROUNDING * oa.bounding_radius.max(ob.bounding_radius) as f32;
+        // At most the gap between the bodies: what the axis leaves between them.
+        let between = apart.dot(&axis) - of_a.most - of_b.most - slack;
+        let skin = skin as f32;
+        self.listed.allowance = f64::from(skin.max(between));
+        self.links.clear();
+        let depth = skin - between;
+        if depth <= 0.0 {
+            return;
+        }
+        let (ra, rb) = (oa.radii(), ob.radii());
+        near.clear();
+        of_b.beyond(of_b.most - depth, |j| {
+            near.push((j as u16, apart + arm(arms_b, j), rb[j] + skin + slack));
+        });
+        let mut nearest = (f32::INFINITY, axis);
+        of_a.beyond(of_a.most - depth, |i| {
+            let (center, radius) = (arm(arms_a, i), ra[i]);
+            for (j, other, other_radius) in near.iter() {
+                let d = other - center;
+                let reach = radius + other_radius;
+                let distance2 = d.norm_squared();
+                if distance2 < reach * reach {
+                    self.links.push((i as u16, *j));
+                }
+                let gap = distance2.sqrt() - reach;
+                if gap < nearest.0 {
+                    nearest = (gap, d);
+                }
+            }
+        });
+        let axis = axes.tr_mul(&nearest.1.map(f64::from));
+        self.axis = axis.try_normalize(0.0).unwrap_or(self.axis);
     }
 }
+
+/// Error of a distance measured in f32, as a share of the larger body.
+const ROUNDING: f32 = 1e-6;
+
+/// Skin of a new list, m: wider for bodies that move fast against each other.
+#[inline]
+fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, reach: f64) -> f64 {
+    let between = b.position - a.position;
+    let speed = (b.velocity - a.velocity - a.spin.cross(&between)).norm() + (b.spin - a.spin).norm() * reach;
+    let (least, most) = SKIN;
+    (speed * setting.dt * LENGTH * setting.skin).sqrt().clamp(least * setting.skin, most * setting.skin)
+}
+
+/// Least and most skin, in common skins.
+const SKIN: (f64, f64) = (0.3, 5.0);
+/// A wide skin makes lists long, a narrow one makes them anew often: at skin s and relative speed v the one costs as
+/// s, the other as v dt/s, and both together least at s² = v dt L. This is L, in common skins.
+const LENGTH: f64 = 8.0;

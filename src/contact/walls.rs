@@ -4,11 +4,12 @@
 //! while it moves from facet to facet. Where two patches meet in a convex edge, the place is felt once; a spring moves
 //! over to the patch that takes the sphere on. In a concave corner both patches push.
 
+use super::batch::{Batch, Place};
 use super::body::Outline;
 use super::law::Spring;
 use super::lease::Lease;
-use super::pairs::Setting;
-use super::resolve::{Exchange, Partner, Place, Remembers, resolve};
+use super::pairs::{Scratch, Setting};
+use super::side::Side;
 use super::surface::{Nearest, Surface};
 use crate::shapes::Sphere;
 use crate::world::{Motion, Relative};
@@ -27,17 +28,13 @@ pub(super) struct Grip {
     pub spring: Spring,
 }
 
-impl Remembers for Grip {
-    fn spring(&mut self) -> &mut Spring {
-        &mut self.spring
-    }
-}
-
 /// One body against one surface.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WallList {
     /// Sorted by (sphere, patch).
     pub grips: Vec<Grip>,
+    /// Which of them hold in this step.
+    held: Vec<u32>,
     facets: Vec<u32>,
     listed: Lease,
     /// Spheres and facets that were near when they were `sought`, sorted by (sphere, patch).
@@ -89,6 +86,7 @@ impl WallList {
     pub(super) fn new() -> Self {
         Self {
             grips: Vec::new(),
+            held: Vec::new(),
             facets: Vec::new(),
             listed: Lease::NONE,
             candidates: Vec::new(),
@@ -199,18 +197,20 @@ impl WallList {
         self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
     }
 
-    /// Forces of this step, if anything touches.
+    /// Hands what touches to `batch`, whose owner keeps this list at `list`.
     #[inline]
-    pub(super) fn evaluate(
+    pub(super) fn look(
         &mut self,
         watch: &mut WallWatch,
+        list: usize,
         setting: &Setting<'_>,
         boundary: &Boundary,
-        places: &mut Vec<Place>,
-    ) -> Option<Exchange> {
+        Scratch { places, .. }: &mut Scratch,
+        batch: &mut Batch,
+    ) {
         if self.grips.is_empty() {
             watch.quiet = if boundary.carrier { self.mark } else { f64::NEG_INFINITY };
-            return None;
+            return;
         }
         watch.quiet = f64::NEG_INFINITY;
         let body = watch.body as usize;
@@ -218,10 +218,10 @@ impl WallList {
         let motion = &setting.motions[body];
         let spheres = &setting.outlines[constants.shape].spheres;
         let surface = &boundary.motion;
-        let between = motion.position - surface.position;
+        let offset = motion.position - surface.position;
         let travelled = setting.odometers[body];
         places.clear();
-        let mut deepest: f64 = 0.0;
+        self.held.clear();
         let mut first = 0;
         while first < self.grips.len() {
             let i = self.grips[first].sphere;
@@ -232,7 +232,7 @@ impl WallList {
             }
             let sphere = &spheres[i as usize];
             let arm = motion.rotation * sphere.center;
-            let local = surface.rotation.tr_mul(&(between + arm));
+            let local = surface.rotation.tr_mul(&(offset + arm));
             let start = places.len();
             for k in first..last {
                 let grip = &self.grips[k];
@@ -248,33 +248,33 @@ impl WallList {
                 if overlap <= 0.0 || self.taken(&nearest, first..last, k, &local, boundary) {
                     continue;
                 }
-                let normal = surface.rotation * nearest.normal;
-                // The sphere's deepest point: a wall has no centre to share the overlap with.
-                let arm_a = arm + normal * sphere.radius;
-                let arm_b = between + arm_a;
-                deepest = deepest.max(overlap / sphere.radius);
+                let curvature = 1.0 / sphere.radius;
+                self.held.push(k as u32);
                 places.push(Place {
-                    link: k,
-                    normal,
-                    overlap,
-                    contact_radius: (sphere.radius * overlap).sqrt(),
-                    arm_a,
-                    arm_b,
-                    velocity: surface.velocity_at(&arm_b) - motion.velocity_at(&arm_a),
+                    arm,
+                    between: surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON),
+                    reach: sphere.radius,
+                    radius: sphere.radius,
+                    curvature,
+                    sharpness: curvature,
+                    spring: self.grips[k].spring,
                 });
             }
-            self.hand_over(first..last, &places[start..]);
+            self.hand_over(first..last, start, &mut places[start..]);
             first = last;
         }
-        if places.is_empty() {
-            return None;
+        if !places.is_empty() {
+            let law = setting.law(constants.material, boundary.material);
+            let sides = (&setting.side(body), &Side::surface(surface));
+            batch.take((watch.body, watch.surface), list, law, sides, places);
         }
-        let law = setting.law(constants.material, boundary.material);
-        let inverse_inertia = Vector3::zeros();
-        let wall = Partner { motion: surface, inverse_mass: 0.0, inverse_inertia, softness: 0.0 };
-        let sides = (setting.partner(body), wall);
-        let exchange = resolve(places, sides, law, setting.damping, setting.dt, &mut self.grips);
-        Some(Exchange { deepest, ..exchange })
+    }
+
+    /// The springs of what touches, in the order of the places handed in.
+    pub(super) fn keep(&mut self, springs: &mut dyn Iterator<Item = Spring>) {
+        for (k, spring) in self.held.iter().zip(springs) {
+            self.grips[*k as usize].spring = spring;
+        }
     }
 
     /// Whether another patch of the same sphere already feels this place: the place lies on a border with that patch,
@@ -301,20 +301,22 @@ impl WallList {
         })
     }
 
-    /// The spring of a patch that lets go of a sphere moves to a patch that takes it on in the same step.
-    fn hand_over(&mut self, grips: std::ops::Range<usize>, places: &[Place]) {
+    /// The spring of a patch that lets go of a sphere moves to a patch that takes it on in the same step; `places` are
+    /// those of the grips that hold from `start` on.
+    fn hand_over(&mut self, grips: std::ops::Range<usize>, start: usize, places: &mut [Place]) {
+        let held = &self.held[start..];
         let mut freed = None;
         for k in grips {
-            if self.grips[k].touching && !places.iter().any(|p| p.link == k) {
+            if self.grips[k].touching && !held.contains(&(k as u32)) {
                 self.grips[k].touching = false;
                 freed = Some(std::mem::take(&mut self.grips[k].spring));
             }
         }
-        for place in places {
-            let grip = &mut self.grips[place.link];
+        for (k, place) in held.iter().zip(places) {
+            let grip = &mut self.grips[*k as usize];
             if !grip.touching {
                 grip.touching = true;
-                grip.spring = freed.take().unwrap_or_default();
+                place.spring = freed.take().unwrap_or_default();
             }
         }
     }

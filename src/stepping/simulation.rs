@@ -243,9 +243,8 @@ impl Simulation {
     pub(super) fn advance_frame(&mut self) -> Result<(), SimulationError> {
         self.torque_sum = 0.0;
         self.torque_steps = 0;
-        for _ in 0..self.steps_per_frame() {
-            self.advance()?;
-        }
+        // All steps inside the pool: handing work to it from outside costs more than a step does.
+        rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
         self.check_bodies()
     }
 

@@ -1,0 +1,372 @@
+//! Many contacts worked out side by side.
+//!
+//! Lists hand in what touches, two bodies at a time; [`Batch::work_out`] turns eight contacts at once into forces, in
+//! loops that a compiler turns into the widest vector instructions of the machine. Every contact is computed by the same
+//! operations in the same order whatever stands beside it, so that results do not depend on the vectors' width.
+//!
+//! A contact has one common point for both bodies, so that angular momentum is conserved to round-off.
+
+use super::law::{Dashpots, PairLaw, Spring, Touch};
+use super::side::{CROWD, DAMPED, Felt, Side, frequency};
+use crate::scene::{DampingMass, TangentialLaw};
+use nalgebra::Vector3;
+
+/// Contacts in a block.
+const LANES: usize = 8;
+type Lanes = [f64; LANES];
+type Lanes3 = [Lanes; 3];
+
+/// Two spheres that touch, or a sphere and a surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// From a's centre of mass to the centre of its sphere, world axes, m.
+    pub arm: Vector3<f64>,
+    /// From there to the centre of b's sphere, or to the place of the surface that is nearest, m; never zero.
+    pub between: Vector3<f64>,
+    /// Distance at which they begin to touch, m.
+    pub reach: f64,
+    /// Radius of a's sphere, m.
+    pub radius: f64,
+    /// Curvature of the contact, 1/R*, 1/m.
+    pub curvature: f64,
+    /// Curvature of the smaller sphere, 1/m.
+    pub sharpness: f64,
+    pub spring: Spring,
+}
+
+/// What two bodies do to each other in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Exchange {
+    pub a: u32,
+    /// A body or a surface.
+    pub b: u32,
+    /// Touching places.
+    pub contacts: u32,
+    /// Largest overlap over the smaller sphere's radius, dimensionless.
+    pub deepest: f64,
+    /// Force on b; a feels the opposite, N.
+    pub force: Vector3<f64>,
+    /// Torque on a about its centre of mass, N m.
+    pub torque_a: Vector3<f64>,
+    /// Torque on b about its centre of mass (a surface: about its origin), N m.
+    pub torque_b: Vector3<f64>,
+}
+
+/// Two bodies whose contacts are in the batch.
+#[derive(Debug, Clone, Copy)]
+struct Meeting {
+    a: u32,
+    b: u32,
+    /// Where their springs belong.
+    list: usize,
+    first: usize,
+    count: usize,
+    /// From a's centre of mass to b's, m.
+    offset: Vector3<f64>,
+}
+
+/// Contacts of many bodies, in blocks of one law each.
+#[derive(Debug, Default)]
+pub(super) struct Batch {
+    blocks: Vec<Block>,
+    /// How many of the blocks are in use: the others, and lanes left over, hold contacts of the past.
+    used: usize,
+    /// Contacts so far; blocks that a law left unfilled count as full.
+    len: usize,
+    meetings: Vec<Meeting>,
+}
+
+/// How the contacts of a batch are worked out.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rule {
+    pub damping: DampingMass,
+    /// Part of the overlap by which the contact point lies inside a's sphere: half for two spheres that share it; none
+    /// at a surface, which has no centre to share it with.
+    pub inside: f64,
+    /// Step, s.
+    pub dt: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Block {
+    law: usize,
+    arm: Lanes3,
+    between: Lanes3,
+    reach: Lanes,
+    radius: Lanes,
+    curvature: Lanes,
+    sharpness: Lanes,
+    mass: Lanes,
+    /// Velocity of b against a at the contact point is `drift + turn × arm`.
+    drift: Lanes3,
+    turn: Lanes3,
+    /// Mean spin of the two bodies.
+    spin: Lanes3,
+    stretch: Lanes3,
+    stretch_radius: Lanes,
+    normal: Lanes3,
+    overlap: Lanes,
+    contact_radius: Lanes,
+    velocity: Lanes3,
+    dashpot: [Lanes; 2],
+    force: Lanes3,
+    torque: Lanes3,
+}
+
+const ZERO: Lanes = [0.0; LANES];
+const ONE: Lanes = [1.0; LANES];
+const ZERO3: Lanes3 = [ZERO; 3];
+
+/// A block of contacts nobody asks for: each lane is worked out, so it must hold numbers.
+const EMPTY: Block = Block {
+    law: 0,
+    arm: ZERO3,
+    between: [ONE, ZERO, ZERO],
+    reach: ONE,
+    radius: ONE,
+    curvature: ONE,
+    sharpness: ONE,
+    mass: ONE,
+    drift: ZERO3,
+    turn: ZERO3,
+    spin: ZERO3,
+    stretch: ZERO3,
+    stretch_radius: ONE,
+    normal: ZERO3,
+    overlap: ZERO,
+    contact_radius: ZERO,
+    velocity: ZERO3,
+    dashpot: [ZERO; 2],
+    force: ZERO3,
+    torque: ZERO3,
+};
+
+#[inline(always)]
+fn get(lanes: &Lanes3, k: usize) -> Vector3<f64> {
+    Vector3::new(lanes[0][k], lanes[1][k], lanes[2][k])
+}
+
+#[inline(always)]
+fn set(lanes: &mut Lanes3, k: usize, v: &Vector3<f64>) {
+    (lanes[0][k], lanes[1][k], lanes[2][k]) = (v.x, v.y, v.z);
+}
+
+impl Batch {
+    /// Forgets all contacts.
+    pub(super) fn clear(&mut self) {
+        self.meetings.clear();
+        self.used = 0;
+        self.len = 0;
+    }
+
+    /// Contacts so far.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Takes the contacts of two bodies; `list` is where their springs belong, `law` the index of their law.
+    #[inline(always)]
+    pub(super) fn take(
+        &mut self,
+        (a, b): (u32, u32),
+        list: usize,
+        law: usize,
+        (side_a, side_b): (&Side<'_>, &Side<'_>),
+        places: &[Place],
+    ) {
+        if self.used > 0 && self.blocks[self.used - 1].law != law {
+            self.len = self.used * LANES;
+        }
+        let (ma, mb) = (side_a.motion, side_b.motion);
+        let offset = mb.position - ma.position;
+        let mass = 1.0 / (side_a.inverse_mass + side_b.inverse_mass);
+        let drift = mb.velocity - ma.velocity - mb.spin.cross(&offset);
+        let turn = mb.spin - ma.spin;
+        let spin = (ma.spin + mb.spin) * 0.5;
+        self.meetings.push(Meeting { a, b, list, first: self.len, count: places.len(), offset });
+        for place in places {
+            let (at, k) = (self.len / LANES, self.len % LANES);
+            if at == self.used {
+                if at == self.blocks.len() {
+                    self.blocks.push(EMPTY);
+                }
+                self.blocks[at].law = law;
+                self.used += 1;
+            }
+            let block = &mut self.blocks[at];
+            set(&mut block.arm, k, &place.arm);
+            set(&mut block.between, k, &place.between);
+            block.reach[k] = place.reach;
+            block.radius[k] = place.radius;
+            block.curvature[k] = place.curvature;
+            block.sharpness[k] = place.sharpness;
+            block.mass[k] = mass;
+            set(&mut block.drift, k, &drift);
+            set(&mut block.turn, k, &turn);
+            set(&mut block.spin, k, &spin);
+            set(&mut block.stretch, k, &place.spring.stretch);
+            block.stretch_radius[k] = place.spring.radius;
+            self.len += 1;
+        }
+    }
+
+    /// Forces of all contacts taken. `sides` are the two partners of a meeting; `done` gets what they do to each other,
+    /// the list their springs belong to, and the springs, in the order in which they came.
+    #[inline(always)]
+    pub(super) fn work_out<'a>(
+        &mut self,
+        laws: &[PairLaw],
+        rule: &Rule,
+        sides: impl Fn(u32, u32) -> (Side<'a>, Side<'a>),
+        mut done: impl FnMut(Exchange, usize, &mut dyn Iterator<Item = Spring>),
+    ) {
+        let blocks = &mut self.blocks[..self.used];
+        for block in blocks.iter_mut() {
+            block.place(&laws[block.law], rule.inside);
+        }
+        for meeting in &self.meetings {
+            meeting.tune_dashpots(blocks, laws, rule, &sides);
+        }
+        for block in blocks.iter_mut() {
+            block.press(&laws[block.law], rule.dt);
+        }
+        for meeting in &self.meetings {
+            let mut springs = meeting.lanes().map(|(at, k)| blocks[at].spring(k));
+            done(meeting.exchange(blocks), meeting.list, &mut springs);
+        }
+    }
+}
+
+impl Meeting {
+    /// Block and lane of each of its contacts.
+    fn lanes(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        (self.first..self.first + self.count).map(|k| (k / LANES, k % LANES))
+    }
+
+    /// Dashpots that take more into account than their own contact.
+    #[inline]
+    fn tune_dashpots<'a>(
+        &self,
+        blocks: &mut [Block],
+        laws: &[PairLaw],
+        rule: &Rule,
+        sides: &impl Fn(u32, u32) -> (Side<'a>, Side<'a>),
+    ) {
+        let law = &laws[blocks[self.first / LANES].law];
+        if rule.damping == DampingMass::Contact {
+            let felt = self.lanes().map(|(at, k)| blocks[at].felt(k, &self.offset));
+            if let Some(omega) = frequency(felt, &sides(self.a, self.b), law) {
+                for (at, k) in self.lanes() {
+                    let Dashpots { normal, tangential } =
+                        law.dashpots_at(blocks[at].contact_radius[k], omega);
+                    (blocks[at].dashpot[0][k], blocks[at].dashpot[1][k]) = (normal, tangential);
+                }
+            }
+        }
+        if self.count >= CROWD {
+            let all: f64 = self.lanes().map(|(at, k)| blocks[at].dashpot[0][k]).sum();
+            let (a, b) = sides(self.a, self.b);
+            let share = (DAMPED / (rule.dt * (a.softness + b.softness) * all)).min(1.0);
+            for (at, k) in self.lanes() {
+                blocks[at].dashpot[0][k] *= share;
+                blocks[at].dashpot[1][k] *= share;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn exchange(&self, blocks: &[Block]) -> Exchange {
+        let (mut force, mut torque, mut deepest) = (Vector3::zeros(), Vector3::zeros(), 0.0_f64);
+        for (at, k) in self.lanes() {
+            let block = &blocks[at];
+            force += get(&block.force, k);
+            torque += get(&block.torque, k);
+            deepest = deepest.max(block.overlap[k] * block.sharpness[k]);
+        }
+        Exchange {
+            a: self.a,
+            b: self.b,
+            contacts: self.count as u32,
+            deepest,
+            force,
+            torque_a: -torque,
+            torque_b: torque - self.offset.cross(&force),
+        }
+    }
+}
+
+impl Block {
+    /// Where and how the contacts touch, and the dashpots of each by itself.
+    #[inline(always)]
+    fn place(&mut self, law: &PairLaw, inside: f64) {
+        for k in 0..LANES {
+            let between = get(&self.between, k);
+            let distance = between.norm();
+            let normal = between / distance;
+            let overlap = self.reach[k] - distance;
+            let contact_radius = (overlap / self.curvature[k]).sqrt();
+            let arm = get(&self.arm, k) + normal * (self.radius[k] - inside * overlap);
+            let velocity = get(&self.drift, k) + get(&self.turn, k).cross(&arm);
+            let Dashpots { normal: across, tangential: along } = law.dashpots(contact_radius, self.mass[k]);
+            set(&mut self.arm, k, &arm);
+            set(&mut self.normal, k, &normal);
+            set(&mut self.velocity, k, &velocity);
+            self.overlap[k] = overlap;
+            self.contact_radius[k] = contact_radius;
+            self.dashpot[0][k] = across;
+            self.dashpot[1][k] = along;
+        }
+    }
+
+    /// Forces; springs move on.
+    #[inline(always)]
+    fn press(&mut self, law: &PairLaw, dt: f64) {
+        match law.tangential {
+            TangentialLaw::Total => self.press_by(&PairLaw { tangential: TangentialLaw::Total, ..*law }, dt),
+            TangentialLaw::Incremental => {
+                self.press_by(&PairLaw { tangential: TangentialLaw::Incremental, ..*law }, dt);
+            }
+            TangentialLaw::Rescaled => {
+                self.press_by(&PairLaw { tangential: TangentialLaw::Rescaled, ..*law }, dt);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn press_by(&mut self, law: &PairLaw, dt: f64) {
+        for k in 0..LANES {
+            let normal = get(&self.normal, k);
+            let touch = Touch {
+                normal,
+                overlap: self.overlap[k],
+                velocity: get(&self.velocity, k),
+                twirl: get(&self.spin, k).dot(&normal),
+            };
+            let dashpots = Dashpots { normal: self.dashpot[0][k], tangential: self.dashpot[1][k] };
+            let mut spring = self.spring(k);
+            let pressed = law.force(&touch, self.contact_radius[k], dashpots, dt, &mut spring);
+            let force = normal * pressed.normal + pressed.tangential;
+            set(&mut self.force, k, &force);
+            set(&mut self.torque, k, &get(&self.arm, k).cross(&force));
+            set(&mut self.stretch, k, &spring.stretch);
+            self.stretch_radius[k] = spring.radius;
+        }
+    }
+
+    #[inline(always)]
+    fn spring(&self, k: usize) -> Spring {
+        Spring { stretch: get(&self.stretch, k), radius: self.stretch_radius[k] }
+    }
+
+    fn felt(&self, k: usize, offset: &Vector3<f64>) -> Felt {
+        let normal = get(&self.normal, k);
+        let arm = get(&self.arm, k);
+        Felt {
+            normal,
+            arm_a: arm,
+            arm_b: arm - offset,
+            speed: get(&self.velocity, k).dot(&normal),
+            contact_radius: self.contact_radius[k],
+        }
+    }
+}
