@@ -87,6 +87,7 @@ fn left_out(scene: &Scene) -> Vec<Line> {
         (!outputs.statistics || scene.drum.is_none(), "bed statistics: switched off, or no drum"),
         (!outputs.picture || no_spray, "bed picture: switched off, or no spray"),
         (!outputs.report, "report: switched off"),
+        (outputs.record.is_none(), "recording of poses: not asked for"),
     ];
     list.into_iter().filter(|(out, _)| *out).map(|(_, why)| ("left out", why.to_owned())).collect()
 }

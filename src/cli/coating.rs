@@ -258,7 +258,7 @@ impl Coating {
         record.derived.spray =
             Some(SprayAim { center_mm: (zone.center * 1e3).into(), normal: zone.normal.into() });
         record.derived.panels = self.shapes.iter().map(|s| (s.shape.name.clone(), s.panels.len())).collect();
-        record.backend = self.coater.backend().to_owned();
+        self.coater.backend().clone_into(&mut record.backend);
     }
 }
 

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use pancoat::scene::{
     Aim, BoundarySurface, Cap, Cycle, DampingMass, Deposit, Flux, Footprint, Outline, Pattern, Rays, Recipe,
-    Scene, Settle, StepChoice, TangentialLaw,
+    Record, Scene, Settle, StepChoice, TangentialLaw,
 };
 use std::f64::consts::PI;
 
@@ -78,6 +78,7 @@ fn every_key_has_its_effect() {
     assert!(scene.spray.is_none());
     assert_eq!(scene.outputs.series_interval, 0.1);
     assert!(!scene.outputs.report && !scene.outputs.picture && scene.outputs.statistics);
+    assert_eq!(scene.outputs.record, Some(Record::Compact));
 }
 
 #[test]

@@ -251,3 +251,52 @@ fn heap(bodies: usize, gun: &SprayGun) -> Vec<BodyState> {
         })
         .collect()
 }
+
+#[cfg(all(test, feature = "gpu"))]
+mod tests {
+    use super::*;
+    use crate::observers::SprayZone;
+    use crate::observers::coater::tests::{cube, tumbled};
+    use crate::scene::{Aim, Deposit, Flux, Pattern, Spray};
+
+    /// A card that is lost in the middle loses no count: the processor counts again what only the card had counted.
+    #[test]
+    fn nothing_is_lost_with_a_graphics_card() {
+        for flux in [Flux::Uniform, Flux::Gaussian { sigma: 0.5 }] {
+            let spray = Spray {
+                spanwise: 0.08,
+                streamwise: 0.04,
+                distance: 0.05,
+                aim: Aim::Bed,
+                pixels: [160, 80],
+                deposit: Deposit::Measured { mean_thickness: 1e-4, film_density: 1300.0 },
+                pattern: Pattern { flux, ..Pattern::default() },
+            };
+            let zone = SprayZone::facing(Vector3::zeros(), Vector3::y(), &spray);
+            let gun = SprayGun::new(&zone, &spray).unwrap();
+            let bed = Bed::new(&[cube(0.01)], &[0; 40], None).unwrap();
+            let mut counter = Counter::new(&bed, &gun, Backend::GpuSoftware);
+            if !counter.uses_gpu() {
+                assert!(std::env::var_os("REQUIRE_GPU").is_none(), "{}", counter.note());
+                eprintln!("not tested: {}", counter.note());
+                return;
+            }
+            let (mut ledger, mut expected) = (CoatLedger::new(bed.ids()), CoatLedger::new(bed.ids()));
+            let mut canvas = Canvas::new(gun.pixels());
+            for index in 0..6 {
+                if index == 3 {
+                    counter.gpu.as_ref().unwrap().counter.lose();
+                }
+                let bodies = tumbled(40, [0.03, 0.01, 0.05], index);
+                let frame = Frame { index, time: 0.0, bodies: &bodies, drum_angle: 0.0, drum_torque: 0.0 };
+                let seen = counter.count(&bed, &gun, &[frame], &mut ledger);
+                let exposed = on_cpu(&bed, &gun, &frame, &mut canvas, &mut expected);
+                assert_eq!(seen[0].len(), exposed.len());
+            }
+            counter.settle(&bed, &gun, &mut ledger);
+            let lost = "cpu from frame 0 on: the graphics card failed";
+            assert!(counter.note().starts_with(lost), "{}", counter.note());
+            assert_eq!(ledger, expected);
+        }
+    }
+}

@@ -130,6 +130,12 @@ impl GpuCounter {
         Ok(counts)
     }
 
+    /// Loses the device.
+    #[cfg(test)]
+    pub(super) fn lose(&self) {
+        self.device.destroy();
+    }
+
     fn encoder(&self) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
     }
