@@ -6,7 +6,7 @@ use crate::observers::statistics::{BedFigures, BedStatistics, BodyInertia, Figur
 use crate::observers::{AimError, BedSurface, Observer, SprayZone};
 use crate::report::{Bed, Results};
 use crate::scene::{Aim, Drum, Spray};
-use crate::shapes::TabletShape;
+use crate::shapes::{SurfaceMesh, TabletShape};
 use crate::stepping::{Frame, Simulation};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -15,6 +15,13 @@ use std::f64::consts::PI;
 pub(super) const AIMING: f64 = 0.5;
 /// Length of the blocks that standard errors come from, s: about a passage down the surface.
 const BLOCK: f64 = 1.0;
+
+/// Bodies that are coated.
+pub(super) struct CoatedBed<'a> {
+    pub(super) shapes: &'a [TabletShape],
+    pub(super) body_shapes: &'a [usize],
+    pub(super) drum: Option<&'a SurfaceMesh>,
+}
 
 /// Collects where the bodies are.
 struct Positions(Vec<Vector3<f64>>);

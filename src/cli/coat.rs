@@ -1,8 +1,8 @@
 //! `pancoat coat`: sprays stored poses without simulating.
 
 use super::args::CoatArgs;
-use super::bed::{AIMING, surface};
-use super::coating::{CoatedBed, Coating};
+use super::bed::{AIMING, CoatedBed, surface};
+use super::coating::Coating;
 use super::failure::Failure;
 use super::print_line;
 use super::run::blank_record;
@@ -63,9 +63,6 @@ pub(super) fn coat(args: &CoatArgs) -> Result<(), Failure> {
         stopped = !watch.note(&progress);
         last = Some(end.clone());
     }
-    let Some(last) = last else {
-        return Err(Failure::OtherPoses { path: args.poses.clone(), what: "no whole frame" });
-    };
     if !stopped && done < poses.frames {
         watch.say(&format!("warning: only {done} of {} frames are whole", poses.frames));
     }
@@ -78,7 +75,7 @@ pub(super) fn coat(args: &CoatArgs) -> Result<(), Failure> {
     record.performance =
         Performance { wall_s: watch.wall_s(), coated_s: done as f64 * interval, ..Performance::default() };
     outcome.write(&directory, &mut record)?;
-    if let (Some(drum), true) = (&drum, scene.outputs.picture) {
+    if let (Some(drum), Some(last), true) = (&drum, &last, scene.outputs.picture) {
         outcome.picture(&directory, &bed, drum, &zone, &last.as_frame())?;
     }
     directory.write_record(&record)?;
@@ -142,6 +139,9 @@ impl Poses {
     fn with_first(mut self, path: &Path, interval: f64) -> Result<Self, Failure> {
         let moments = (AIMING / interval).ceil() as usize;
         self.first = self.stored.by_ref().take(moments.max(2)).collect::<Result<_, _>>()?;
+        if self.first.is_empty() {
+            return Err(Failure::OtherPoses { path: path.to_owned(), what: "no whole frame" });
+        }
         if let [one, two, ..] = &self.first[..] {
             let found = two.time - one.time;
             if (found / interval - 1.0).abs() > 0.01 {

@@ -1,5 +1,6 @@
 //! The coating of a run: counts while it runs, statistics at output times, results at its end.
 
+use super::bed::CoatedBed;
 use super::outcome::Outcome;
 use crate::models::{
     AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, CoatPattern, ModelError, SpreadLaw,
@@ -14,7 +15,7 @@ use crate::report::{
     ThicknessMap, vtp,
 };
 use crate::scene::{Deposit, Scene, Spray};
-use crate::shapes::{Panels, Region, SurfaceMesh, TabletShape};
+use crate::shapes::{Panels, Region, TabletShape};
 use crate::stepping::Frame;
 use std::collections::BTreeMap;
 
@@ -63,13 +64,6 @@ pub(super) enum CoatingError {
     Model(#[from] ModelError),
     #[error(transparent)]
     Folder(#[from] RunDirError),
-}
-
-/// Bodies that are coated.
-pub(super) struct CoatedBed<'a> {
-    pub(super) shapes: &'a [TabletShape],
-    pub(super) body_shapes: &'a [usize],
-    pub(super) drum: Option<&'a SurfaceMesh>,
 }
 
 impl Coating {
@@ -177,7 +171,7 @@ impl Coating {
             }
             Deposit::Measured { mean_thickness, .. } => {
                 let share = done as f64 * self.frame_interval / self.duration;
-                let area = self.shapes.iter().map(|s| s.bodies.len() as f64 * s.shape.area).sum();
+                let area = self.shapes.iter().map(CoatedShape::area).sum();
                 let on_tablets = self.coater.ledger().total() - self.coater.ledger().loss().total();
                 film_volume_from_mean(share * mean_thickness, area, on_tablets.max(1))
             }
@@ -263,6 +257,11 @@ impl Coating {
 }
 
 impl CoatedShape {
+    /// Of the panels of all its tablets, m².
+    fn area(&self) -> f64 {
+        self.bodies.len() as f64 * self.panels.areas.iter().sum::<f64>()
+    }
+
     /// Counts of all tablets, row by row.
     fn counts(&self, coater: &Coater) -> Vec<u64> {
         self.bodies.iter().flat_map(|&body| coater.counts(body)).copied().collect()

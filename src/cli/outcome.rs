@@ -1,13 +1,12 @@
 //! What came out of coating, and the files it goes to.
 
+use super::bed::CoatedBed;
 use super::failure::Failure;
 use crate::observers::{BedPicture, SprayZone};
 use crate::report::{self, PanelRow, RunDir, RunRecord, TabletRow};
 use crate::shapes::SurfaceMesh;
 use crate::stepping::Frame;
 use std::collections::BTreeMap;
-
-use super::coating::CoatedBed;
 
 /// Width and height of the bed picture, pixels.
 const PICTURE: u32 = 640;

@@ -1,7 +1,8 @@
 //! `pancoat run`: fill, settle, aim, spray, and write what came out.
 
 use super::args::RunArgs;
-use super::coating::{CoatedBed, Coating};
+use super::bed::CoatedBed;
+use super::coating::Coating;
 use super::failure::Failure;
 use super::watch::Watch;
 use super::{bed, guards, print_line};

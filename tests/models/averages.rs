@@ -128,14 +128,15 @@ fn the_approach_to_the_limit_is_one_over_time() {
 }
 
 /// Verification case V49: tablets coated evenly on their caps alone have CoV = sqrt(A_B/A_F), on their bands alone its
-/// inverse, with the areas of band and faces of Table 4.
+/// inverse, with the areas of band and faces of Table 4. For the triangular tablet the table prints 0.1561, hence 0.3951 and
+/// 2.5310, which no convex tablet of its other measures can have (src/shapes/tablet.rs); 0.6151, its digits swapped, fits.
 #[test]
 fn caps_alone_or_bands_alone_have_the_cov_of_their_areas() {
     let cases = [
         (ALMOND, 0.7991, 1.2515),
         (OVAL, 0.7948, 1.2582),
         (ROUND, 0.6198, 1.6133),
-        (TRIANGULAR, 0.3951, 2.5310),
+        (TRIANGULAR, 0.7843, 1.2751),
     ];
     for (tablet, caps_alone, bands_alone) in cases {
         let surface = tablet.surface(120, 30);
