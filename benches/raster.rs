@@ -24,7 +24,7 @@ fn raster(criterion: &mut Criterion) {
             distance: 0.05,
             aim: Aim::Bed,
             pixels,
-            deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+            deposit: Deposit::Sprayed { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
             pattern: Pattern::default(),
         };
         let zone = SprayZone::facing(Vector3::zeros(), Vector3::y(), &spray);

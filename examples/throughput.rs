@@ -131,7 +131,13 @@ fn peers(case: &str, dt: Option<f64>) -> Scene {
             frame_interval: 0.02,
         },
         spray: None,
-        outputs: Outputs { series_interval: 1.0, report: false, picture: false, statistics: false },
+        outputs: Outputs {
+            series_interval: 1.0,
+            report: false,
+            picture: false,
+            statistics: false,
+            record: None,
+        },
     }
 }
 

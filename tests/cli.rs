@@ -3,6 +3,7 @@
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
 use serde_json::Value;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -241,6 +242,89 @@ fn a_deadline_stops_with_75_and_keeps_what_there_is() {
     let coated = record["performance"]["coated_s"].as_f64().expect("is given");
     assert!(coated > 0.0 && coated < 1000.0, "{coated}");
     assert!(record["results"]["cov_intra"].is_f64());
+}
+
+/// Exactly recorded poses, and the same as a table, are coated to the very files of the run.
+#[test]
+fn stored_poses_are_coated_to_the_files_of_the_run() {
+    let (folder, scene, out) = small();
+    pancoat(&["run", &scene, "--set", "outputs.record=Exact", "--out", &out, "--backend", "cpu"]).success();
+    let recording = Path::new(&out).join("poses.bin");
+    let mut table = "time_s,id,x,y,z,qw,qx,qy,qz\n".to_owned();
+    for frame in pancoat::observers::PoseReader::open(&recording).expect("a recording") {
+        let frame = frame.expect("a whole frame");
+        for (id, b) in frame.bodies.iter().enumerate() {
+            let (p, q) = (b.position, b.orientation);
+            writeln!(table, "{},{id},{},{},{},{},{},{},{}", frame.time, p.x, p.y, p.z, q.w, q.i, q.j, q.k)
+                .expect("a string takes all");
+        }
+    }
+    let file = folder.path().join("poses.csv");
+    fs::write(&file, table).expect("can be written");
+    for (poses, name) in [(recording, "coated"), (file, "from_table")] {
+        let again = folder.path().join(name).display().to_string();
+        let poses = poses.display().to_string();
+        let arguments = ["coat", &scene, "--poses", &poses, "--out", &again, "--threads", "2"];
+        let assert = pancoat(&[&arguments[..], &["--backend", "cpu"]].concat()).success();
+        assert_eq!(stdout(&assert).trim(), again);
+        for product in ["series.csv", "panels.csv", "tablets.csv", "coating.vtp"] {
+            let read = |folder: &str| fs::read(Path::new(folder).join(product)).expect("is there");
+            assert!(read(&again) == read(&out), "{name}: {product}");
+        }
+        let (coated, ran) = (record(Path::new(&again)), record(Path::new(&out)));
+        assert_eq!(coated["derived"]["poses"], poses);
+        assert_eq!(coated["results"]["cov_intra"], ran["results"]["cov_intra"]);
+        assert!(coated["results"].get("speed_in_spray_m_per_s").is_none());
+        assert!(Path::new(&again).join("report.html").exists() && Path::new(&again).join("bed.png").exists());
+    }
+}
+
+#[test]
+fn poses_that_do_not_fit_exit_with_2() {
+    let (folder, scene, out) = small();
+    let table = folder.path().join("poses.csv");
+    let coat = |rows: &str, more: &[&str]| {
+        fs::write(&table, format!("time_s,id,x,y,z,qw,qx,qy,qz\n{rows}")).expect("can be written");
+        let poses = table.display().to_string();
+        let arguments = [&["coat", &scene, "--poses", &poses, "--out", &out], more].concat();
+        stderr(&pancoat(&arguments).code(2))
+    };
+    let apart = "0,0,0,-0.04,0,1,0,0,0\n0.5,0,0,-0.04,0,1,0,0,0\n";
+    assert!(
+        coat(apart, &[]).contains("frames are 0.5 s apart, in the scene 0.02 s: set time.frame_interval")
+    );
+    assert!(coat("0,0,0,0,0,1,1,0,0\n", &[]).contains("poses.csv:2: the quaternion is not of length 1"));
+    assert!(coat("", &[]).contains("no whole frame"));
+    assert!(coat(apart, &["--set", "spray=None"]).contains("the scene has no spray"));
+    assert!(stderr(&pancoat(&["coat", &scene, "--poses", "nowhere.bin"]).code(2)).contains("nowhere.bin"));
+    assert!(!Path::new(&out).exists());
+}
+
+/// Whatever draws the spray, the run is done and the record says what it was.
+#[test]
+fn every_backend_ends_well_and_is_recorded() {
+    for backend in ["auto", "cpu", "gpu", "gpu-software"] {
+        let (_folder, scene, out) = small();
+        let set = "spray.deposit=(mean_thickness: Um(40))";
+        pancoat(&["run", &scene, "--backend", backend, "--out", &out, "--set", set]).success();
+        let record = record(Path::new(&out));
+        let drawn = record["backend"].as_str().expect("is given");
+        match backend {
+            "cpu" => assert_eq!(drawn, "cpu"),
+            _ if cfg!(not(feature = "gpu")) => {
+                assert_eq!(drawn, "cpu: this program was built without support for graphics cards");
+            }
+            "gpu-software" => {
+                assert!(drawn.starts_with("gpu: ") || drawn.starts_with("cpu: no graphics card"));
+            }
+            _ => assert!(drawn.starts_with("gpu: ") || drawn.starts_with("cpu: "), "{drawn}"),
+        }
+        // A measured thickness is what comes out.
+        let mean = record["results"]["mean_thickness_um"].as_f64().expect("is given");
+        assert!((mean - 40.0).abs() < 1e-9, "{mean}");
+    }
+    let (_folder, scene, out) = small();
+    pancoat(&["run", &scene, "--backend", "abacus", "--out", &out]).code(2);
 }
 
 #[cfg(unix)]

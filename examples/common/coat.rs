@@ -2,7 +2,7 @@
 
 use pancoat::models::{BatchStatistics, CoatMap};
 use pancoat::observers::{BedSurface, Coater, Observer, film_volume_per_count};
-use pancoat::scene::Scene;
+use pancoat::scene::{Deposit, Scene};
 use pancoat::stepping::{Frame, Simulation};
 use std::error::Error;
 use std::f64::consts::PI;
@@ -40,7 +40,11 @@ pub(crate) fn coat(scene: &str) -> Result<(), Box<dyn Error>> {
 
     let panels = simulation.shapes()[0].panels.as_ref().ok_or("a sprayed shape has panels")?;
     let counts: Vec<u64> = (0..kinds.len()).flat_map(|body| coater.counts(body).to_vec()).collect();
-    let unit = film_volume_per_count(&spray.deposit, scene.time.frame_interval, coater.counts_per_frame());
+    let Deposit::Sprayed { rate, solids, film_density } = spray.deposit else {
+        return Err("no spray rate".into());
+    };
+    let (interval, counts_per_frame) = (scene.time.frame_interval, coater.counts_per_frame());
+    let unit = film_volume_per_count(rate, solids, film_density, interval, counts_per_frame);
     let batch = BatchStatistics::of(&CoatMap::new(&panels.areas, &counts, unit)?)?;
     println!("after {seconds} s of spray: mean thickness {:.3} um", batch.mean_thickness * 1e6);
     println!("CoV_intra {:.3}, CoV_inter {:.3}", batch.moments, batch.inter);

@@ -1,6 +1,7 @@
 //! What a user can type.
 
 use super::scene_arg::SceneArg;
+use crate::observers::Backend;
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -17,6 +18,8 @@ pub(super) struct Args {
 pub(super) enum Command {
     /// Run a scene: fill, settle, spray, and report
     Run(RunArgs),
+    /// Spray stored poses, of a run that recorded them or of another program, without simulating
+    Coat(CoatArgs),
     /// Say what a scene would do, what it leaves out, its time step and its cost
     Check(CheckArgs),
     /// Say the measures of a scene's tablet shapes, how good their panels and clumps are, and write them as files
@@ -46,9 +49,59 @@ pub(super) struct RunArgs {
     /// Threads [default: one per processor]; results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
+    /// What draws the spray; counts of a graphics card differ from the processor's in single pixels
+    #[arg(long, value_name = "NAME", value_enum, default_value_t)]
+    pub(super) backend: BackendArg,
     /// Stop after this wall time (90s, 30m, 2h) and keep what there is
     #[arg(long, value_name = "TIME", value_parser = wall_time)]
     pub(super) max_wall: Option<Duration>,
+    /// No progress on stderr
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+/// What draws the spray.
+#[derive(Debug, Clone, Copy, Default, clap::ValueEnum)]
+pub(super) enum BackendArg {
+    /// A graphics card where there is one, else the processor
+    #[default]
+    Auto,
+    /// The processor
+    Cpu,
+    /// A graphics card
+    Gpu,
+    /// A program that acts as a graphics card, slower than the processor
+    GpuSoftware,
+}
+
+impl From<BackendArg> for Backend {
+    fn from(backend: BackendArg) -> Self {
+        match backend {
+            BackendArg::Auto => Self::Auto,
+            BackendArg::Cpu => Self::Cpu,
+            BackendArg::Gpu => Self::Gpu,
+            BackendArg::GpuSoftware => Self::GpuSoftware,
+        }
+    }
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct CoatArgs {
+    #[command(flatten)]
+    pub(super) scene: SceneArg,
+    /// Recording of a run (poses.bin), or a CSV table with the columns time_s, id, x, y, z, qw, qx, qy, qz (m, body to
+    /// world axes)
+    #[arg(long, value_name = "FILE")]
+    pub(super) poses: PathBuf,
+    /// Folder of the results [default: runs/NAME of the scene with `_coated` added]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Threads [default: one per processor]; results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// What draws the spray; counts of a graphics card differ from the processor's in single pixels
+    #[arg(long, value_name = "NAME", value_enum, default_value_t)]
+    pub(super) backend: BackendArg,
     /// No progress on stderr
     #[arg(long)]
     pub(super) quiet: bool,

@@ -3,17 +3,25 @@
 use super::failure::Failure;
 use super::watch::Watch;
 use crate::observers::statistics::{BedFigures, BedStatistics, BodyInertia, Figure};
-use crate::observers::{BedSurface, Observer, SprayZone};
+use crate::observers::{AimError, BedSurface, Observer, SprayZone};
 use crate::report::{Bed, Results};
 use crate::scene::{Aim, Drum, Spray};
+use crate::shapes::{SurfaceMesh, TabletShape};
 use crate::stepping::{Frame, Simulation};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// Time over which the bed's surface is taken for aiming, s.
-const AIMING: f64 = 0.5;
+pub(super) const AIMING: f64 = 0.5;
 /// Length of the blocks that standard errors come from, s: about a passage down the surface.
 const BLOCK: f64 = 1.0;
+
+/// Bodies that are coated.
+pub(super) struct CoatedBed<'a> {
+    pub(super) shapes: &'a [TabletShape],
+    pub(super) body_shapes: &'a [usize],
+    pub(super) drum: Option<&'a SurfaceMesh>,
+}
 
 /// Collects where the bodies are.
 struct Positions(Vec<Vector3<f64>>);
@@ -37,12 +45,20 @@ pub(super) fn aim(
             let mut positions = Positions(Vec::new());
             watch.begin("aiming", AIMING);
             simulation.run(0, frames, &mut [&mut positions], &mut |progress| watch.note(progress))?;
-            let kinds = simulation.body_shapes();
-            let volume = kinds.iter().map(|&kind| simulation.shapes()[kind].volume).sum::<f64>();
-            let radius = (0.75 / PI * volume / kinds.len().max(1) as f64).cbrt();
-            Ok(BedSurface::fit(&positions.0, radius)?.zone(spray))
+            Ok(surface(&positions.0, simulation.shapes(), simulation.body_shapes())?.zone(spray))
         }
     }
+}
+
+/// The surface of a bed whose bodies were at `positions`.
+pub(super) fn surface(
+    positions: &[Vector3<f64>],
+    shapes: &[TabletShape],
+    body_shapes: &[usize],
+) -> Result<BedSurface, AimError> {
+    let volume = body_shapes.iter().map(|&kind| shapes[kind].volume).sum::<f64>();
+    let radius = (0.75 / PI * volume / body_shapes.len().max(1) as f64).cbrt();
+    BedSurface::fit(positions, radius)
 }
 
 /// Statistics of the bed of a simulation.

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::watch::clock;
 use super::{guards, pace, print_line};
 use crate::contact::PairLaw;
-use crate::scene::{Aim, Scene, Settle};
+use crate::scene::{Aim, Record, Scene, Settle};
 use crate::shapes::TabletShape;
 use crate::stepping::TimeStep;
 use std::f64::consts::PI;
@@ -69,6 +69,13 @@ fn parts(scene: &Scene, shapes: &[TabletShape]) -> Vec<Line> {
         let [across, along] = spray.pixels;
         let (span, stream) = (1e3 * spray.spanwise, 1e3 * spray.streamwise);
         lines.push(("spray", format!("{span:.1} x {stream:.1} mm, {across} x {along} pixels, {aim}")));
+    }
+    if let Some(record) = scene.outputs.record {
+        let bytes = match record {
+            Record::Compact => 9,
+            Record::Exact => 56,
+        };
+        lines.push(("recording", format!("{bytes} bytes a pose, every frame")));
     }
     lines
 }

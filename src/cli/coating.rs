@@ -1,17 +1,22 @@
 //! The coating of a run: counts while it runs, statistics at output times, results at its end.
 
+use super::bed::CoatedBed;
+use super::outcome::Outcome;
 use crate::models::{
     AsymptoteEstimate, BatchStatistics, Bootstrap, CoatMap, CoatPattern, ModelError, SpreadLaw,
     TabletSurface, region_means,
 };
 use crate::observers::statistics::{CoatingSeries, SprayPasses};
-use crate::observers::{Coater, CoaterError, Observer, SprayZone, film_volume_per_count};
-use crate::report::{
-    self, Estimate, Exponent, PanelRow, Passes, RunDirError, SeriesFile, TabletRow, ThicknessMap, vtp,
+use crate::observers::{
+    Backend, Coater, CoaterError, Observer, SprayZone, film_volume_from_mean, film_volume_per_count,
 };
-use crate::scene::{Scene, Spray};
+use crate::report::{
+    self, Estimate, Exponent, PanelRow, Passes, RunDirError, RunRecord, SeriesFile, SprayAim, TabletRow,
+    ThicknessMap, vtp,
+};
+use crate::scene::{Deposit, Scene, Spray};
 use crate::shapes::{Panels, Region, TabletShape};
-use crate::stepping::{Frame, Simulation};
+use crate::stepping::Frame;
 use std::collections::BTreeMap;
 
 /// Shortest block of time for the estimate of the limit, s: longer than a tablet takes round the bed.
@@ -29,13 +34,12 @@ const MIXED: f64 = 10.0;
 /// What the spray has put on the tablets.
 pub(super) struct Coating {
     pub(super) coater: Coater,
-    /// k_V, m³.
-    pub(super) volume_per_count: f64,
     /// Coated shapes, the one with the most tablets first.
     shapes: Vec<CoatedShape>,
     frame_interval: f64,
     frames_per_block: u64,
-    film_density: f64,
+    deposit: Deposit,
+    duration: f64,
 }
 
 struct CoatedShape {
@@ -62,40 +66,26 @@ pub(super) enum CoatingError {
     Folder(#[from] RunDirError),
 }
 
-/// What is known at the end.
-pub(super) struct Outcome {
-    /// Of the shape with the most tablets.
-    pub(super) main: report::Coating,
-    /// Of each shape, when there are several.
-    pub(super) shapes: BTreeMap<String, report::Coating>,
-    pub(super) efficiency: f64,
-    pub(super) identity_residual: f64,
-    pub(super) tablets: Vec<TabletRow>,
-    pub(super) panels: Vec<PanelRow>,
-    pub(super) surfaces: String,
-    /// Mean thickness on each body, m.
-    pub(super) film: Vec<f64>,
-}
-
 impl Coating {
-    /// Coats the bodies of a simulation that is about to be sprayed in `zone`, for `frames` frames.
+    /// Coats bodies that are about to be sprayed in `zone`, for `frames` frames, drawn by `backend`.
     pub(super) fn new(
-        simulation: &Simulation,
+        scene: &Scene,
+        bed: &CoatedBed<'_>,
         spray: &Spray,
         zone: SprayZone,
         frames: u64,
+        backend: Backend,
     ) -> Result<Self, CoaterError> {
-        let scene: &Scene = simulation.scene();
-        let coater =
-            Coater::new(simulation.shapes(), simulation.body_shapes(), spray, zone, simulation.drum())?;
+        let mut coater = Coater::new(bed.shapes, bed.body_shapes, spray, zone, bed.drum)?;
+        coater.use_backend(backend);
         let interval = scene.time.frame_interval;
         let shortest = (SHORTEST_BLOCK / interval).ceil() as u64;
-        let mut shapes: Vec<CoatedShape> = simulation
-            .shapes()
+        let mut shapes: Vec<CoatedShape> = bed
+            .shapes
             .iter()
             .enumerate()
             .filter_map(|(index, shape)| {
-                let kinds = simulation.body_shapes().iter().enumerate();
+                let kinds = bed.body_shapes.iter().enumerate();
                 let bodies: Vec<usize> = kinds.filter(|(_, kind)| **kind == index).map(|(b, _)| b).collect();
                 let panels = shape.panels.clone().filter(|_| !bodies.is_empty())?;
                 Some(CoatedShape {
@@ -113,12 +103,12 @@ impl Coating {
             .collect();
         shapes.sort_by_key(|shape| std::cmp::Reverse(shape.bodies.len()));
         Ok(Self {
-            volume_per_count: film_volume_per_count(&spray.deposit, interval, coater.counts_per_frame()),
             coater,
             shapes,
             frame_interval: interval,
             frames_per_block: shortest.min(frames).max(1),
-            film_density: spray.deposit.film_density,
+            deposit: spray.deposit,
+            duration: frames as f64 * interval,
         })
     }
 
@@ -126,10 +116,14 @@ impl Coating {
     pub(super) fn note(&mut self, done: u64, file: &mut SeriesFile) -> Result<Option<f64>, CoatingError> {
         let time = done as f64 * self.frame_interval;
         let mut cov_intra = None;
-        if self.shapes.first().is_some_and(|main| main.series.is_due(time)) {
+        if self.is_due(done) {
+            self.coater.settle();
+        }
+        let volume_per_count = self.volume_per_count(done);
+        if self.series_is_due(done) {
             for (k, shape) in self.shapes.iter_mut().enumerate() {
                 let counts = shape.counts(&self.coater);
-                let map = CoatMap::new(&shape.panels.areas, &counts, self.volume_per_count)?;
+                let map = CoatMap::new(&shape.panels.areas, &counts, volume_per_count)?;
                 let batch = shape.series.record(time, &map)?;
                 if let (Some(row), Some(_), true) = (shape.series.rows().last(), batch, k == 0) {
                     file.add(row)?;
@@ -148,16 +142,55 @@ impl Coating {
         Ok(cov_intra)
     }
 
+    /// Takes note of stored frames.
+    pub(super) fn observe_all(&mut self, frames: &[Frame<'_>]) {
+        let exposed = self.coater.observe_all(frames);
+        for (frame, exposed) in frames.iter().zip(&exposed) {
+            for shape in &mut self.shapes {
+                shape.passes.observe(frame, &self.coater.zones()[0], exposed);
+            }
+        }
+    }
+
+    /// Whether something is due after frame `done`.
+    pub(super) fn is_due(&self, done: u64) -> bool {
+        self.series_is_due(done) || done.is_multiple_of(self.frames_per_block)
+    }
+
+    fn series_is_due(&self, done: u64) -> bool {
+        let time = done as f64 * self.frame_interval;
+        self.shapes.first().is_some_and(|main| main.series.is_due(time))
+    }
+
+    /// k_V after `done` frames, m³. A measured mean thickness is that of the end, and grows evenly until then.
+    pub(super) fn volume_per_count(&self, done: u64) -> f64 {
+        match self.deposit {
+            Deposit::Sprayed { rate, solids, film_density } => {
+                let counts = self.coater.counts_per_frame();
+                film_volume_per_count(rate, solids, film_density, self.frame_interval, counts)
+            }
+            Deposit::Measured { mean_thickness, .. } => {
+                let share = done as f64 * self.frame_interval / self.duration;
+                let area = self.shapes.iter().map(CoatedShape::area).sum();
+                let on_tablets = self.coater.ledger().total() - self.coater.ledger().loss().total();
+                film_volume_from_mean(share * mean_thickness, area, on_tablets.max(1))
+            }
+        }
+    }
+
     /// Whether the limit can be estimated anew after frame `done`: a block of time has ended, and it is not the first.
     pub(super) fn has_news(&self, done: u64) -> bool {
         done.is_multiple_of(self.frames_per_block) && done > self.frames_per_block
     }
 
-    /// What came out so far, on bodies of `masses` (kg).
-    pub(super) fn outcome(&self, masses: &[f64]) -> Result<Outcome, ModelError> {
-        let loss = self.coater.ledger().loss();
-        let lost = loss.wall + loss.ends + loss.baffles + loss.empty;
+    /// What came out of `done` frames, on bodies of `masses` (kg).
+    pub(super) fn outcome(&mut self, done: u64, masses: &[f64]) -> Result<Outcome, ModelError> {
+        self.coater.settle();
+        let volume_per_count = self.volume_per_count(done);
+        let lost = self.coater.ledger().loss().total();
         let mut outcome = Outcome {
+            backend: self.coater.backend().to_owned(),
+            volume_per_count,
             main: report::Coating::default(),
             shapes: BTreeMap::new(),
             efficiency: 1.0 - lost as f64 / self.coater.ledger().total().max(1) as f64,
@@ -170,14 +203,14 @@ impl Coating {
         let mut maps = Vec::new();
         for (k, shape) in self.shapes.iter().enumerate() {
             let counts = shape.counts(&self.coater);
-            let map = CoatMap::new(&shape.panels.areas, &counts, self.volume_per_count)?;
+            let map = CoatMap::new(&shape.panels.areas, &counts, volume_per_count)?;
             let batch = match BatchStatistics::of(&map) {
                 Err(ModelError::Uncoated) => continue,
                 batch => batch?,
             };
             let residual = batch.identities.worst().max(shape.series.worst_identity());
             outcome.identity_residual = outcome.identity_residual.max(residual);
-            let mut coating = shape.coating(&batch, self.volume_per_count, self.block_time());
+            let mut coating = shape.coating(&batch, volume_per_count, self.block_time());
             let pattern = shape.without_shadows(&mut coating);
             if k == 0 {
                 outcome.main = coating;
@@ -194,7 +227,7 @@ impl Coating {
                     tablet: body,
                     shape: shape.shape.name.clone(),
                     mass_mg: 1e6 * masses[body],
-                    coat_mass_mg: 1e6 * self.film_density * area * tablet.mean,
+                    coat_mass_mg: 1e6 * self.deposit.film_density() * area * tablet.mean,
                     mean_thickness_um: 1e6 * tablet.mean,
                     cov_intra: tablet.cov(),
                     cap_to_band: regions.map(|means| means.ratio()).filter(|ratio| ratio.is_finite()),
@@ -213,13 +246,22 @@ impl Coating {
         self.frames_per_block as f64 * self.frame_interval
     }
 
-    /// Panels of each coated shape.
-    pub(super) fn panels(&self) -> BTreeMap<String, usize> {
-        self.shapes.iter().map(|s| (s.shape.name.clone(), s.panels.len())).collect()
+    /// Puts into the record what is known before the first frame.
+    pub(super) fn describe(&self, record: &mut RunRecord) {
+        let zone = &self.coater.zones()[0];
+        record.derived.spray =
+            Some(SprayAim { center_mm: (zone.center * 1e3).into(), normal: zone.normal.into() });
+        record.derived.panels = self.shapes.iter().map(|s| (s.shape.name.clone(), s.panels.len())).collect();
+        self.coater.backend().clone_into(&mut record.backend);
     }
 }
 
 impl CoatedShape {
+    /// Of the panels of all its tablets, m².
+    fn area(&self) -> f64 {
+        self.bodies.len() as f64 * self.panels.areas.iter().sum::<f64>()
+    }
+
     /// Counts of all tablets, row by row.
     fn counts(&self, coater: &Coater) -> Vec<u64> {
         self.bodies.iter().flat_map(|&body| coater.counts(body)).copied().collect()

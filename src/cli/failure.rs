@@ -4,7 +4,7 @@ use super::coating::CoatingError;
 use super::guards::Refusal;
 use crate::models::ModelError;
 use crate::models::thz::ThzError;
-use crate::observers::{AimError, CoaterError};
+use crate::observers::{AimError, CoaterError, PoseError};
 use crate::report::{ReportError, RunDirError};
 use crate::scene::SceneFaults;
 use crate::shapes::ShapeError;
@@ -27,6 +27,17 @@ pub(super) enum Failure {
     NewScene { path: PathBuf, source: std::io::Error },
     #[error("the scene has no drum")]
     NoDrum,
+    #[error("the scene has no spray")]
+    NoSpray,
+    #[error(transparent)]
+    Poses(#[from] PoseError),
+    #[error("{}: {what}", path.display())]
+    OtherPoses { path: PathBuf, what: &'static str },
+    #[error(
+        "{}: frames are {found} s apart, in the scene {expected} s: set time.frame_interval",
+        path.display()
+    )]
+    Interval { path: PathBuf, found: f64, expected: f64 },
     #[error("refused: {0}")]
     Refused(#[from] Refusal),
     #[error(transparent)]
@@ -62,6 +73,11 @@ impl Failure {
             Self::Folder(RunDirError::Write { .. }) => 1,
             Self::Scene(_)
             | Self::NoDrum
+            | Self::NoSpray
+            | Self::Poses(_)
+            | Self::OtherPoses { .. }
+            | Self::Interval { .. }
+            | Self::Coater(_)
             | Self::NothingCoated(_)
             | Self::NewScene { .. }
             | Self::Scan { .. }

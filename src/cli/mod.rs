@@ -5,12 +5,14 @@
 mod args;
 mod bed;
 mod check;
+mod coat;
 mod coating;
 mod compare;
 mod depth;
 mod failure;
 mod guards;
 mod new;
+mod outcome;
 mod pace;
 mod predict;
 mod run;
@@ -28,6 +30,7 @@ use std::process::ExitCode;
 pub fn main() -> ExitCode {
     let done = match Args::parse().command {
         Command::Run(args) => run::run(&args),
+        Command::Coat(args) => coat::coat(&args),
         Command::Check(args) => check::check(&args),
         Command::Drum(args) => drum(&args),
         Command::Report(args) => report(&args),

@@ -1,22 +1,24 @@
 //! `pancoat run`: fill, settle, aim, spray, and write what came out.
 
 use super::args::RunArgs;
+use super::bed::CoatedBed;
 use super::coating::Coating;
 use super::failure::Failure;
 use super::watch::Watch;
 use super::{bed, guards, print_line};
 use crate::observers::statistics::BedStatistics;
-use crate::observers::{BedPicture, Observer};
+use crate::observers::{Backend, Observer, Packing, RecordedAim, Recorder, Recording};
 use crate::report::{
-    Derived, Guards, Machine, Performance, RECORD_FORMAT, ReportData, Results, RunDir, RunRecord, SprayAim,
-    Status,
+    Derived, Guards, Machine, Performance, RECORD_FORMAT, ReportData, Results, RunDir, RunRecord, Status,
 };
-use crate::scene::Scene;
-use crate::stepping::{Frame, Progress, Simulation, SimulationError};
+use crate::scene::{Drum, Record, Scene};
+use crate::shapes::TabletShape;
+use crate::stepping::{Frame, Progress, Simulation, SimulationError, TimeStep};
+use nalgebra::Vector3;
 use std::path::Path;
 
-/// Width and height of the bed picture, pixels.
-const PICTURE: u32 = 640;
+/// Frames after which a recording is brought to the disk.
+const FLUSH_EVERY: u64 = 50;
 
 pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let seconds = args.seconds.map(|seconds| format!("time.duration=S({seconds})"));
@@ -32,8 +34,10 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
     let directory = RunDir::create(args.out.as_deref().unwrap_or(&default), text.text())?;
     let hash = blake3::hash(text.text().as_bytes()).to_hex().to_string();
     let watch = Watch::new(args.max_wall, args.quiet)?;
-    let record = blank_record(&scene, hash, &simulation);
-    let mut session = Session { directory, watch, record, coating: None, bed: None, done: 0 };
+    let record = blank_record(&scene, hash, simulation.shapes(), simulation.time_step());
+    let backend = args.backend.into();
+    let mut session =
+        Session { directory, watch, record, backend, coating: None, bed: None, recorder: None, done: 0 };
     session.directory.write_record(&session.record)?;
     let ended = session.stages(&mut simulation);
     session.finish(&simulation, ended)
@@ -44,8 +48,11 @@ struct Session {
     directory: RunDir,
     watch: Watch,
     record: RunRecord,
+    /// What is to draw the spray.
+    backend: Backend,
     coating: Option<Coating>,
     bed: Option<BedStatistics>,
+    recorder: Option<Recorder>,
     /// Frames handed to observers.
     done: u64,
 }
@@ -57,15 +64,21 @@ impl Session {
         simulation.settle(&mut watch)?;
         let scene = simulation.scene().clone();
         let frames = (scene.time.duration / scene.time.frame_interval).round().max(1.0) as u64;
+        let mut aim = None;
         if let Some(spray) = &scene.spray {
             let zone = bed::aim(simulation, spray, &mut self.watch)?;
-            let coating = Coating::new(simulation, spray, zone, frames)?;
-            let derived = &mut self.record.derived;
-            derived.spray =
-                Some(SprayAim { center_mm: (zone.center * 1e3).into(), normal: zone.normal.into() });
-            derived.panels = coating.panels();
-            derived.film_volume_per_count_m3 = Some(coating.volume_per_count);
+            let coating = Coating::new(&scene, &bed_of(simulation), spray, zone, frames, self.backend)?;
+            coating.describe(&mut self.record);
+            if self.record.backend != "cpu" {
+                self.watch.say(&format!("spray drawn by {}", self.record.backend));
+            }
+            aim = Some(RecordedAim { target: zone.center, normal: zone.normal });
             self.coating = Some(coating);
+        }
+        if let Some(record) = scene.outputs.record {
+            let packing = packing(record, scene.drum.as_ref());
+            let recording = Recording { packing, body_shapes: simulation.body_shapes().to_vec(), aim };
+            self.recorder = Some(Recorder::create(&self.directory.path().join("poses.bin"), recording)?);
         }
         self.record.derived.settling_s = Some(simulation.clock());
         self.record.derived.bodies = simulation.body_shapes().len();
@@ -85,6 +98,7 @@ impl Session {
             let mut observers: Vec<&mut dyn Observer> = Vec::new();
             observers.extend(self.coating.as_mut().map(|c| c as &mut dyn Observer));
             observers.extend(self.bed.as_mut().map(|b| b as &mut dyn Observer));
+            observers.extend(self.recorder.as_mut().map(|r| r as &mut dyn Observer));
             let mut go_on = true;
             let mut note = |progress: &Progress| {
                 go_on = self.watch.note(progress);
@@ -96,6 +110,9 @@ impl Session {
                 && let Some(cov_intra) = coating.note(self.done, file)?
             {
                 self.watch.cov_intra = Some(cov_intra);
+            }
+            if let Some(recorder) = self.recorder.as_mut().filter(|_| self.done.is_multiple_of(FLUSH_EVERY)) {
+                recorder.flush()?;
             }
             if self.done < frames && self.coating.as_ref().is_some_and(|c| c.has_news(self.done)) {
                 self.results(simulation)?;
@@ -113,6 +130,8 @@ impl Session {
     /// Writes all that is known, however the run ended.
     fn finish(mut self, simulation: &Simulation, ended: Result<(), Failure>) -> Result<(), Failure> {
         let stopped = matches!(&ended, Err(Failure::Simulation(SimulationError::Stopped { .. })));
+        let recorded = self.recorder.take().map_or(Ok(()), |mut recorder| recorder.flush());
+        let ended = ended.and(recorded.map_err(Failure::from));
         self.record.status = match &ended {
             Ok(()) => Status::Done,
             Err(_) if stopped => Status::Stopped,
@@ -154,18 +173,10 @@ impl Session {
         if let Some(figures) = self.bed.as_ref().and_then(BedStatistics::figures) {
             bed::record(&figures, &mut self.record.results);
         }
-        let Some(coating) = self.coating.as_ref().filter(|_| self.done > 0) else { return Ok(()) };
-        let outcome = coating.outcome(&simulation.masses())?;
-        let results: &mut Results = &mut self.record.results;
-        results.coating = outcome.main;
-        results.shapes = outcome.shapes;
-        results.spray_efficiency = Some(outcome.efficiency);
-        results.cov_identity_residual = Some(outcome.identity_residual);
-        self.directory.write_table("tablets.csv", &outcome.tablets)?;
-        self.directory.write_table("panels.csv", &outcome.panels)?;
-        self.directory.write("coating.vtp", outcome.surfaces.as_bytes())?;
+        let Some(coating) = self.coating.as_mut().filter(|_| self.done > 0) else { return Ok(()) };
+        let outcome = coating.outcome(self.done, &simulation.masses())?;
+        outcome.write(&self.directory, &mut self.record)?;
         if let (Some(drum), true) = (simulation.drum(), simulation.scene().outputs.picture) {
-            let mut picture = BedPicture::new(simulation.shapes(), simulation.body_shapes(), drum, PICTURE)?;
             let states = simulation.states();
             let frame = Frame {
                 index: self.done,
@@ -174,17 +185,36 @@ impl Session {
                 drum_angle: simulation.drum_angle(),
                 drum_torque: simulation.drum_torque(),
             };
-            let image = picture.draw(&frame, &outcome.film, Some(&coating.coater.zones()[0]));
-            image.write_png(&self.directory.path().join("bed.png")).map_err(Failure::Output)?;
+            let zone = &coating.coater.zones()[0];
+            outcome.picture(&self.directory, &bed_of(simulation), drum, zone, &frame)?;
         }
         Ok(())
     }
 }
 
+fn bed_of(simulation: &Simulation) -> CoatedBed<'_> {
+    CoatedBed { shapes: simulation.shapes(), body_shapes: simulation.body_shapes(), drum: simulation.drum() }
+}
+
+/// How poses in a drum are stored.
+fn packing(record: Record, drum: Option<&Drum>) -> Packing {
+    match (record, drum) {
+        (Record::Compact, Some(drum)) => {
+            let half = Vector3::new(drum.diameter, drum.diameter, drum.width) / 2.0;
+            Packing::Compact { min: -half, max: half }
+        }
+        _ => Packing::Exact,
+    }
+}
+
 /// The record of a run that has not begun.
-fn blank_record(scene: &Scene, scene_hash: String, simulation: &Simulation) -> RunRecord {
-    let step = simulation.time_step();
-    let spheres = simulation.shapes().iter().map(|s| (s.name.clone(), s.clump.spheres.len())).collect();
+pub(super) fn blank_record(
+    scene: &Scene,
+    scene_hash: String,
+    shapes: &[TabletShape],
+    step: &TimeStep,
+) -> RunRecord {
+    let spheres = shapes.iter().map(|s| (s.name.clone(), s.clump.spheres.len())).collect();
     RunRecord {
         format: RECORD_FORMAT,
         title: scene.title.clone(),

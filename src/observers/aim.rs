@@ -150,7 +150,7 @@ mod tests {
             distance: 0.05,
             aim: crate::scene::Aim::Bed,
             pixels: [512, 256],
-            deposit: crate::scene::Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+            deposit: crate::scene::Deposit::Sprayed { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
             pattern: crate::scene::Pattern::default(),
         };
         let surface = BedSurface { slope: 40.0_f64.to_radians(), height: -0.04 };

@@ -11,10 +11,12 @@ mod zone;
 pub use aim::{AimError, BedSurface};
 pub use coater::{
     Backend, CoatLedger, Coater, CoaterError, Exposure, PanelIds, SprayLoss, film_thickness,
-    film_volume_per_count,
+    film_volume_from_mean, film_volume_per_count,
 };
 pub use picture::{BedPicture, Image};
-pub use poses::{Packing, PoseError, PoseReader, Recorder, StoredFrame, read_pose_table};
+pub use poses::{
+    Packing, PoseError, PoseReader, RecordedAim, Recorder, Recording, StoredFrame, read_pose_table,
+};
 pub use zone::SprayZone;
 
 pub use crate::stepping::Observer;

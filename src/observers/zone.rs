@@ -58,7 +58,7 @@ mod tests {
             distance: 0.05,
             aim: Aim::Bed,
             pixels: [512, 256],
-            deposit: Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
+            deposit: Deposit::Sprayed { rate: 1.25e-4, solids: 0.2, film_density: 1300.0 },
             pattern: Pattern::default(),
         }
     }

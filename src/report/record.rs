@@ -92,6 +92,9 @@ pub struct Derived {
     /// Where the spray points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spray: Option<SprayAim>,
+    /// File of the poses that were coated in place of a simulation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poses: Option<String>,
     /// Film volume that a pixel of a frame stands for, m³ (k_V of the paper's Eq 4).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub film_volume_per_count_m3: Option<f64>,
@@ -206,6 +209,14 @@ pub struct Passes {
     /// Order of the tablets' axes to the spray: 1 for caps always up, 0 for random, −1/2 for always on edge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order_to_spray: Option<f64>,
+}
+
+impl Passes {
+    /// The same but for the speed, which is not known.
+    #[must_use]
+    pub fn without_speed(self) -> Self {
+        Self { speed_in_spray_m_per_s: None, ..self }
+    }
 }
 
 /// The limit of CoV_intra with its 95 % interval.

@@ -300,15 +300,34 @@ pub enum Aim {
     },
 }
 
-/// Sprayed amount.
+/// How much film there is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deposit {
-    /// Spray rate of suspension, kg/s.
-    pub rate: f64,
-    /// Solids mass fraction of the suspension, dimensionless.
-    pub solids: f64,
+pub enum Deposit {
+    /// What the nozzle sprays.
+    Sprayed {
+        /// Spray rate of suspension, kg/s.
+        rate: f64,
+        /// Solids mass fraction of the suspension, dimensionless.
+        solids: f64,
+        /// Density of the dry film, kg/m³.
+        film_density: f64,
+    },
+    /// What was measured on real tablets.
+    Measured {
+        /// Mean thickness over all tablets at the end of the coated time, m.
+        mean_thickness: f64,
+        /// Density of the dry film, kg/m³.
+        film_density: f64,
+    },
+}
+
+impl Deposit {
     /// Density of the dry film, kg/m³.
-    pub film_density: f64,
+    pub fn film_density(&self) -> f64 {
+        match self {
+            Self::Sprayed { film_density, .. } | Self::Measured { film_density, .. } => *film_density,
+        }
+    }
 }
 
 /// What a run writes beside its record.
@@ -322,4 +341,15 @@ pub struct Outputs {
     pub picture: bool,
     /// Whether bed statistics (angle of repose, speeds, torque) are kept.
     pub statistics: bool,
+    /// Whether and how poses are recorded.
+    pub record: Option<Record>,
+}
+
+/// How poses are recorded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Record {
+    /// In 9 bytes, a few micrometres and milliradians off.
+    Compact,
+    /// To the last bit, in 56 bytes.
+    Exact,
 }

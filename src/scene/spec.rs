@@ -282,6 +282,7 @@ pub(super) enum AimSpec {
 pub(super) struct DepositSpec {
     pub(super) rate: Option<MassRate>,
     pub(super) solids: Option<Number>,
+    pub(super) mean_thickness: Option<Length>,
     pub(super) film_density: Option<Density>,
 }
 
@@ -330,6 +331,14 @@ pub(super) struct OutputsSpec {
     pub(super) report: Option<bool>,
     pub(super) picture: Option<bool>,
     pub(super) statistics: Option<bool>,
+    pub(super) record: Option<RecordSpec>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename = "Record")]
+pub(super) enum RecordSpec {
+    Compact,
+    Exact,
 }
 
 /// A map's entries in the order of the file, which is the order of their indices in the scene.

@@ -2,8 +2,8 @@
 
 use approx::assert_relative_eq;
 use pancoat::scene::{
-    Aim, BoundarySurface, Cap, Cycle, DampingMass, Flux, Footprint, Outline, Pattern, Rays, Recipe, Scene,
-    Settle, StepChoice, TangentialLaw,
+    Aim, BoundarySurface, Cap, Cycle, DampingMass, Deposit, Flux, Footprint, Outline, Pattern, Rays, Recipe,
+    Record, Scene, Settle, StepChoice, TangentialLaw,
 };
 use std::f64::consts::PI;
 
@@ -36,7 +36,9 @@ fn the_round_scene_is_the_papers_case() {
     let spray = scene.spray.expect("has a spray");
     assert_eq!((spray.spanwise, spray.streamwise, spray.distance), (0.0762, 0.0381, 0.05));
     assert_eq!((spray.aim, spray.pixels), (Aim::Bed, [512, 256]));
-    assert_relative_eq!(spray.deposit.rate, 1.25e-4, max_relative = 1e-15); // 7.5 g/min = 0.125 g/s
+    let Deposit::Sprayed { rate, .. } = spray.deposit else { panic!("a spray of a known rate") };
+    assert_relative_eq!(rate, 1.25e-4, max_relative = 1e-15); // 7.5 g/min = 0.125 g/s
+    assert_eq!(scene.outputs.record, None);
 }
 
 #[test]
@@ -76,6 +78,7 @@ fn every_key_has_its_effect() {
     assert!(scene.spray.is_none());
     assert_eq!(scene.outputs.series_interval, 0.1);
     assert!(!scene.outputs.report && !scene.outputs.picture && scene.outputs.statistics);
+    assert_eq!(scene.outputs.record, Some(Record::Compact));
 }
 
 #[test]

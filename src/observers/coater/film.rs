@@ -7,12 +7,11 @@
 //!   ranges are half-open here, and bodies of different shapes have their own N_p, so i N_p becomes a running sum.
 //! - Eq. 3 turns p into a colour of 24 bits and prints G without its `% 256`. Numbers are not colours here but `u32`
 //!   from end to end, which leaves Eq. 3 without a purpose and 2³² in place of 2²⁴ numbers.
-//! - Eq. 4, `V_ij = Σ_n k_V c_ij,n`, as printed. The paper fits k_V to a measured mean thickness; here it follows from
-//!   the spray rate ([`film_volume_per_count`]).
+//! - Eq. 4, `V_ij = Σ_n k_V c_ij,n`, as printed. The paper fits k_V to a measured mean thickness
+//!   ([`film_volume_from_mean`]); here it follows from the spray rate ([`film_volume_per_count`]) where that is given.
 //! - Eq. 5, `h_ij = V_ij / A_j`, as printed.
 
 use super::CoaterError;
-use crate::scene::Deposit;
 use std::ops::Range;
 
 /// Numbers of all panels of all bodies (Eq. 2), and after them those of what is not a tablet.
@@ -84,22 +83,40 @@ impl PanelIds {
     }
 }
 
-/// The factor k_V of Eq. 4: film volume that one count stands for, m³.
+/// The factor k_V of Eq. 4 from what a nozzle sprays: film volume that one count stands for, m³.
 ///
-/// k_V = ṁ w Δt / (ρ C): what a nozzle of rate ṁ (kg/s) with a solids fraction w (dimensionless) and a film density ρ
+/// k_V = ṁ w Δt / (ρ C): what a nozzle of `rate` ṁ (kg/s) with a `solids` fraction w (dimensionless) and a `film_density` ρ
 /// (kg/m³) sprays between two frames Δt (s) apart is shared by the C counts of a frame. Derived here, for a flux known
 /// pixel by pixel; counts that fall beside the tablets are overspray, and nothing is scaled up for them.
 ///
 /// 7.5 g/min of a 20 % suspension for 0.02 s, film density 1250 kg/m³, 512 × 256 pixels:
 ///
 /// ```
-/// # use pancoat::{observers::film_volume_per_count, scene::Deposit};
-/// let deposit = Deposit { rate: 1.25e-4, solids: 0.2, film_density: 1250.0 };
-/// let volume = film_volume_per_count(&deposit, 0.02, 512 * 256);
+/// # use pancoat::observers::film_volume_per_count;
+/// let volume = film_volume_per_count(1.25e-4, 0.2, 1250.0, 0.02, 512 * 256);
 /// assert!((volume * 131_072.0 - 4e-10).abs() < 1e-24);
 /// ```
-pub fn film_volume_per_count(deposit: &Deposit, frame_interval: f64, counts_per_frame: u64) -> f64 {
-    deposit.rate * deposit.solids * frame_interval / (deposit.film_density * counts_per_frame as f64)
+pub fn film_volume_per_count(
+    rate: f64,
+    solids: f64,
+    film_density: f64,
+    frame_interval: f64,
+    counts_per_frame: u64,
+) -> f64 {
+    rate * solids * frame_interval / (film_density * counts_per_frame as f64)
+}
+
+/// The factor k_V of Eq. 4 from a measured mean thickness, as in the paper: film volume that one count stands for, m³.
+///
+/// k_V = h̄ A / C: a mean `thickness` h̄ (m) over the `area` A (m²) of all tablets is the volume of their C `counts`. Follows
+/// from Eqs. 4 and 5, summed over all panels.
+///
+/// ```
+/// # use pancoat::observers::film_volume_from_mean;
+/// assert!((film_volume_from_mean(50e-6, 0.45, 9_000_000) - 2.5e-12).abs() < 1e-26);
+/// ```
+pub fn film_volume_from_mean(thickness: f64, area: f64, counts: u64) -> f64 {
+    thickness * area / counts as f64
 }
 
 /// Film thickness of each panel of a tablet, m (Eqs. 4 and 5): h_j = k_V c_j / A_j.

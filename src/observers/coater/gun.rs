@@ -96,7 +96,7 @@ mod tests {
             distance: 0.05,
             aim: Aim::Bed,
             pixels: [80, 40],
-            deposit: Deposit { rate: 1.0, solids: 1.0, film_density: 1.0 },
+            deposit: Deposit::Sprayed { rate: 1.0, solids: 1.0, film_density: 1.0 },
             pattern,
         };
         SprayGun::new(&SprayZone::facing(Vector3::zeros(), Vector3::y(), &spray), &spray).unwrap()

@@ -24,6 +24,13 @@ pub struct SprayLoss {
     pub empty: u64,
 }
 
+impl SprayLoss {
+    /// All of it.
+    pub fn total(&self) -> u64 {
+        self.wall + self.ends + self.baffles + self.empty
+    }
+}
+
 /// A body seen in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Exposure {
@@ -86,10 +93,20 @@ impl CoatLedger {
         self.frames += 1;
     }
 
+    /// Adds the counts of every number in so many frames.
+    pub(super) fn add_frames(&mut self, counts: &[u64], frames: u64) {
+        self.counts.iter_mut().zip(counts).for_each(|(sum, more)| *sum += more);
+        self.frames += frames;
+    }
+
+    /// How many counts another tally of the same bed has elsewhere.
+    pub(super) fn differs_by(&self, counts: &[u64]) -> u64 {
+        self.counts.iter().zip(counts).map(|(a, b)| a.abs_diff(*b)).sum::<u64>().div_ceil(2)
+    }
+
     /// Adds what another ledger of the same bed has counted.
     pub(super) fn merge(&mut self, other: &Self) {
-        self.counts.iter_mut().zip(&other.counts).for_each(|(sum, more)| *sum += more);
-        self.frames += other.frames;
+        self.add_frames(&other.counts, other.frames);
     }
 
     /// How many frames have been sprayed.

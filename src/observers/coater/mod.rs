@@ -8,6 +8,7 @@
 //! Method: Freireich et al. 2015 (see [`PanelIds`]), there with OpenGL colours.
 
 mod bed;
+mod counter;
 mod drum;
 mod film;
 mod flux;
@@ -18,20 +19,19 @@ mod gpu;
 mod gpu;
 mod gun;
 mod ledger;
-mod painter;
 mod raster;
 mod triangle;
 mod view;
 
 pub(super) use bed::{Bed, Canvas};
-pub use film::{PanelIds, film_thickness, film_volume_per_count};
+pub use counter::Backend;
+pub use film::{PanelIds, film_thickness, film_volume_from_mean, film_volume_per_count};
 pub use ledger::{CoatLedger, Exposure, SprayLoss};
-pub use painter::Backend;
 pub(super) use raster::IdRaster;
 pub(super) use view::{Lens, View};
 
+use self::counter::{Counter, on_cpu};
 use self::gun::SprayGun;
-use self::painter::Painter;
 use super::{Observer, SprayZone};
 use crate::scene::Spray;
 use crate::shapes::{SurfaceMesh, TabletShape};
@@ -45,7 +45,7 @@ use std::path::PathBuf;
 pub struct Coater {
     bed: Bed,
     gun: SprayGun,
-    painter: Painter,
+    counter: Counter,
     ledger: CoatLedger,
     exposed: Vec<Exposure>,
 }
@@ -114,19 +114,20 @@ impl Coater {
         let bed = Bed::new(shapes, body_shape, drum)?;
         let ledger = CoatLedger::new(bed.ids());
         let gun = SprayGun::new(&zone, spray)?;
-        let painter = Painter::new(&bed, gun.pixels(), Backend::Cpu);
-        Ok(Self { bed, gun, painter, ledger, exposed: Vec::new() })
+        let counter = Counter::new(&bed, &gun, Backend::Cpu);
+        Ok(Self { bed, gun, counter, ledger, exposed: Vec::new() })
     }
 
     /// Has `backend` draw from now on, or the processor where that is not to be had: [`Self::backend`] tells.
     pub fn use_backend(&mut self, backend: Backend) {
-        self.painter = Painter::new(&self.bed, self.gun.pixels(), backend);
+        self.settle();
+        self.counter = Counter::new(&self.bed, &self.gun, backend);
     }
 
     /// What draws, for the record of a run, and why not what was asked for: `cpu`, `gpu: NAME (API, driver)`,
     /// `cpu: REASON` or `cpu from frame N on: REASON`.
     pub fn backend(&self) -> &str {
-        self.painter.note()
+        self.counter.note()
     }
 
     /// The numbers of the panels.
@@ -139,13 +140,20 @@ impl Coater {
         self.gun.zones()
     }
 
-    /// Counts of the panels of a body over all frames, in the order of its shape's panels.
-    pub fn counts(&self, body: usize) -> &[u64] {
-        &self.ledger.counts()[self.bed.ids().of_body(body)]
+    /// Fetches counts that are still on a graphics card, so that [`Self::counts`] and [`Self::ledger`] hold those of all
+    /// frames. With the processor they always do.
+    pub fn settle(&mut self) {
+        self.counter.settle(&self.bed, &self.gun, &mut self.ledger);
     }
 
-    /// All that has been counted; what a checkpoint has to keep.
+    /// Counts of the panels of a body over all frames, in the order of its shape's panels; see [`Self::settle`].
+    pub fn counts(&self, body: usize) -> &[u64] {
+        &self.ledger().counts()[self.bed.ids().of_body(body)]
+    }
+
+    /// All that has been counted; what a checkpoint has to keep. See [`Self::settle`].
     pub fn ledger(&self) -> &CoatLedger {
+        debug_assert!(self.counter.is_settled(), "counts of the last frames are still on the graphics card");
         &self.ledger
     }
 
@@ -158,6 +166,7 @@ impl Coater {
         if found != expected {
             return Err(CoaterError::ForeignLedger { found, expected });
         }
+        self.settle();
         self.ledger = ledger;
         Ok(())
     }
@@ -170,25 +179,17 @@ impl Coater {
     /// Takes note of many frames, several at a time, and gives what [`Self::exposed`] would have been after each. Counts
     /// are whole numbers: they do not depend on the number of threads.
     pub fn observe_all(&mut self, frames: &[Frame<'_>]) -> Vec<Vec<Exposure>> {
-        if self.painter.uses_gpu() {
-            let observed = frames.iter().map(|frame| {
-                self.observe(frame);
-                self.exposed.clone()
-            });
-            return observed.collect();
+        if self.counter.uses_gpu() {
+            return self.counter.count(&self.bed, &self.gun, frames, &mut self.ledger);
         }
         let share = frames.len().div_ceil(rayon::current_num_threads()).max(1);
         let parts: Vec<_> = frames
             .par_chunks(share)
             .map(|some| {
-                let mut painter = Painter::new(&self.bed, self.gun.pixels(), Backend::Cpu);
+                let mut canvas = Canvas::new(self.gun.pixels());
                 let mut ledger = CoatLedger::new(self.bed.ids());
-                let exposed = some.iter().map(|frame| {
-                    let mut exposed = Vec::new();
-                    count(&self.bed, &self.gun, frame, &mut painter, &mut ledger, &mut exposed);
-                    exposed
-                });
-                (exposed.collect::<Vec<_>>(), ledger)
+                let count = |frame| on_cpu(&self.bed, &self.gun, frame, &mut canvas, &mut ledger);
+                (some.iter().map(count).collect::<Vec<_>>(), ledger)
             })
             .collect();
         parts
@@ -216,27 +217,9 @@ impl Coater {
 
 impl Observer for Coater {
     fn observe(&mut self, frame: &Frame<'_>) {
-        count(&self.bed, &self.gun, frame, &mut self.painter, &mut self.ledger, &mut self.exposed);
+        let exposed = self.counter.count(&self.bed, &self.gun, std::slice::from_ref(frame), &mut self.ledger);
+        self.exposed = exposed.into_iter().flatten().collect();
     }
-}
-
-/// Adds a frame to the ledger; replaces `exposed` by the bodies seen in it.
-fn count(
-    bed: &Bed,
-    gun: &SprayGun,
-    frame: &Frame<'_>,
-    painter: &mut Painter,
-    ledger: &mut CoatLedger,
-    exposed: &mut Vec<Exposure>,
-) {
-    exposed.clear();
-    if !gun.is_on(frame.time) {
-        return;
-    }
-    for view in gun.views(frame.index) {
-        painter.draw(bed, &view, frame, |rows| ledger.add(rows, gun.weights(), bed.ids(), exposed));
-    }
-    ledger.end_frame(exposed);
 }
 
 #[cfg(test)]

@@ -1,16 +1,17 @@
 //! What stands for the graphics card in a build without one.
 
 use super::bed::Bed;
-use super::painter::GpuError;
-use super::view::View;
+use super::counter::GpuError;
+use super::gun::SprayGun;
+use super::ledger::Exposure;
 use crate::stepping::Frame;
 
 /// No graphics card.
 #[derive(Debug)]
-pub(super) enum GpuRaster {}
+pub(super) enum GpuCounter {}
 
-impl GpuRaster {
-    pub(super) fn new(_: &Bed, _: [u32; 2], _: bool) -> Result<Self, GpuError> {
+impl GpuCounter {
+    pub(super) fn new(_: &Bed, _: &SprayGun, _: bool) -> Result<Self, GpuError> {
         Err(GpuError::NotBuilt)
     }
 
@@ -18,7 +19,16 @@ impl GpuRaster {
         match *self {}
     }
 
-    pub(super) fn draw(&mut self, _: &Bed, _: &View, _: &Frame<'_>) -> Result<&[u32], GpuError> {
+    pub(super) fn count(
+        &mut self,
+        _: &Bed,
+        _: &SprayGun,
+        _: &[&Frame<'_>],
+    ) -> Result<Vec<Vec<Exposure>>, GpuError> {
+        match *self {}
+    }
+
+    pub(super) fn collect(&mut self) -> Result<Vec<u64>, GpuError> {
         match *self {}
     }
 }

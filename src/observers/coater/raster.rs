@@ -17,10 +17,10 @@ pub(in crate::observers) struct IdRaster {
     height: usize,
     /// Last column and row.
     last: [i32; 2],
-    /// From a row to the next: rows are longer than the screen by what a step over their end may touch.
+    /// From a row to the next: whole tiles, and what a step over their end may touch.
     stride: usize,
     ids: Vec<u32>,
-    /// Beyond the end of the rows nearer than anything, so that nothing is drawn there.
+    /// Beyond the screen nearer than anything, so that nothing is drawn there.
     depths: Vec<f32>,
     /// Depth of the furthest pixel of each tile, or more.
     tile_depths: Vec<f32>,
@@ -32,16 +32,17 @@ impl IdRaster {
     pub(in crate::observers) fn new(pixels: [u32; 2]) -> Self {
         let last = pixels.map(|size| i32::try_from(size).unwrap_or(i32::MAX) - 1);
         let [width, height] = pixels.map(|size| size as usize);
-        let stride = width + LANES;
-        let tiles_across = width.div_ceil(TILE);
+        let (tiles_across, tiles_down) = (width.div_ceil(TILE), height.div_ceil(TILE));
+        let stride = tiles_across * TILE + LANES;
+        let size = stride * tiles_down * TILE;
         let mut raster = Self {
             width,
             height,
             last,
             stride,
-            ids: vec![0; stride * height],
-            depths: vec![f32::NEG_INFINITY; stride * height],
-            tile_depths: vec![f32::INFINITY; tiles_across * height.div_ceil(TILE)],
+            ids: vec![0; size],
+            depths: vec![f32::NEG_INFINITY; size],
+            tile_depths: vec![f32::INFINITY; tiles_across * tiles_down],
             tiles_across,
         };
         raster.clear(0);
@@ -53,14 +54,9 @@ impl IdRaster {
         self.last
     }
 
-    /// Columns.
-    pub(super) fn width(&self) -> usize {
-        self.width
-    }
-
     /// Numbers seen, row by row.
     pub(in crate::observers) fn rows(&self) -> impl Iterator<Item = &[u32]> {
-        self.ids.chunks_exact(self.stride).map(|row| &row[..self.width])
+        self.ids.chunks_exact(self.stride).take(self.height).map(|row| &row[..self.width])
     }
 
     /// Number and depth at a pixel; the depth is infinite where nothing is.
@@ -72,32 +68,42 @@ impl IdRaster {
     /// Empties the screen: `background` at every pixel.
     pub(in crate::observers) fn clear(&mut self, background: u32) {
         self.ids.fill(background);
-        self.depths.chunks_exact_mut(self.stride).for_each(|row| row[..self.width].fill(f32::INFINITY));
+        let rows = self.depths.chunks_exact_mut(self.stride).take(self.height);
+        rows.for_each(|row| row[..self.width].fill(f32::INFINITY));
         self.tile_depths.fill(f32::INFINITY);
     }
 
     /// Whether nothing as deep as `nearest` or deeper can be seen in `area`.
     #[inline]
     pub(in crate::observers) fn hides(&self, area: &Bounds, nearest: f32) -> bool {
-        let [left, right] = area.columns.map(|x| x as usize / TILE);
-        let [top, bottom] = area.rows.map(|y| y as usize / TILE);
-        (top..=bottom).all(|row| {
-            let tiles = &self.tile_depths[row * self.tiles_across..][left..=right];
-            tiles.iter().all(|&far| nearest > far)
-        })
+        let (left, right) = (area.columns[0] as usize / TILE, area.columns[1] as usize / TILE);
+        let (top, bottom) = (area.rows[0] as usize / TILE, area.rows[1] as usize / TILE);
+        for row in top..=bottom {
+            for &furthest in &self.tile_depths[row * self.tiles_across..][left..=right] {
+                if nearest <= furthest {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// Brings the tile depths of `area` up to date. Until then [`Self::hides`] errs on the side of seeing.
     pub(in crate::observers) fn settle(&mut self, area: &Bounds) {
-        let [left, right] = area.columns.map(|x| x as usize / TILE);
-        let [top, bottom] = area.rows.map(|y| y as usize / TILE);
+        let (left, right) = (area.columns[0] as usize / TILE, area.columns[1] as usize / TILE);
+        let (top, bottom) = (area.rows[0] as usize / TILE, area.rows[1] as usize / TILE);
         for row in top..=bottom {
-            for column in left..=right {
-                let across = column * TILE..self.width.min((column + 1) * TILE);
-                let down = row * TILE..self.height.min((row + 1) * TILE);
-                self.tile_depths[row * self.tiles_across + column] = down
-                    .map(|y| furthest(&self.depths[y * self.stride..][across.clone()]))
-                    .fold(f32::NEG_INFINITY, f32::max);
+            let depths = &self.depths[row * TILE * self.stride..][..TILE * self.stride];
+            let tiles = &mut self.tile_depths[row * self.tiles_across..][left..=right];
+            for (tile, column) in tiles.iter_mut().zip(left..) {
+                let mut furthest = f32x4::splat(f32::NEG_INFINITY);
+                for depths in depths.chunks_exact(self.stride) {
+                    for depths in depths[column * TILE..][..TILE].as_chunks::<LANES>().0 {
+                        furthest = furthest.fast_max(f32x4::new(*depths));
+                    }
+                }
+                let [a, b, c, d] = furthest.to_array();
+                *tile = a.max(b).max(c.max(d));
             }
         }
     }
@@ -125,24 +131,24 @@ impl IdRaster {
 
     /// Tests the pixels of `bounds`, some at a time.
     fn draw_small(&mut self, triangle: &Triangle, bounds: &Bounds, plane: &DepthPlane, id: u32) {
-        let mut edges = triangle.lane_edges(bounds);
+        let [mut ab, mut bc, mut ca] = triangle.lane_edges(bounds);
         for y in bounds.rows[0]..=bounds.rows[1] {
             let row = plane.row(y);
-            let [mut a, mut b, mut c] = edges.map(|edge| edge.value);
+            let (mut a, mut b, mut c) = (ab.value, bc.value, ca.value);
             let mut x = bounds.columns[0];
             while x <= bounds.columns[1] {
                 let inside = !(a | b | c).is_negative();
                 if inside.any() {
                     self.put(x, y, inside, plane.depths(row, x), id);
                 }
-                a += edges[0].per_lanes;
-                b += edges[1].per_lanes;
-                c += edges[2].per_lanes;
+                a += ab.per_lanes;
+                b += bc.per_lanes;
+                c += ca.per_lanes;
                 x += LANE_STEP;
             }
-            for edge in &mut edges {
-                edge.value += edge.per_row;
-            }
+            ab.value += ab.per_row;
+            bc.value += bc.per_row;
+            ca.value += ca.per_row;
         }
     }
 
@@ -176,11 +182,4 @@ impl IdRaster {
             seen_ids.copy_from_slice(wins.select(ids, old_ids).as_array());
         }
     }
-}
-
-/// The largest of some depths.
-fn furthest(depths: &[f32]) -> f32 {
-    let (lanes, rest) = depths.as_chunks::<LANES>();
-    let far = lanes.iter().fold(f32x4::splat(f32::NEG_INFINITY), |far, &depths| far.fast_max(depths.into()));
-    far.to_array().iter().chain(rest).fold(f32::NEG_INFINITY, |far, &depth| far.max(depth))
 }

@@ -34,7 +34,14 @@ pub(in crate::observers) enum Sides {
 
 /// A triangle that is seen, its vertices clockwise on the screen, whose rows run downwards.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Triangle([ScreenVertex; 3]);
+pub(super) struct Triangle {
+    vertices: [ScreenVertex; 3],
+    /// Twice its area, grid steps squared, above 0.
+    area: i64,
+    /// Left and right, top and bottom, grid steps.
+    columns: [i32; 2],
+    rows: [i32; 2],
+}
 
 /// Columns and rows of pixels, first to last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,63 +79,52 @@ impl Triangle {
     #[inline]
     pub(super) fn new([a, b, c]: [ScreenVertex; 3], sides: Sides) -> Option<Self> {
         // What winds counter-clockwise for the viewer has a negative area where rows run downwards.
-        match cross(a, b, c) {
-            0 => None,
-            area if area < 0 => Some(Self([a, c, b])),
-            _ => (sides == Sides::Both).then_some(Self([a, b, c])),
+        let area = cross(a, b, c);
+        if area == 0 || (area > 0 && sides == Sides::Front) {
+            return None;
         }
-    }
-
-    fn extent(&self, of: fn(&ScreenVertex) -> i32) -> [i32; 2] {
-        let [a, b, c] = self.0.each_ref().map(of);
-        [a.min(b).min(c), a.max(b).max(c)]
+        let vertices = if area < 0 { [a, c, b] } else { [a, b, c] };
+        Some(Self {
+            vertices,
+            area: area.abs(),
+            columns: [a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x)],
+            rows: [a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y)],
+        })
     }
 
     /// The pixels of a screen, up to the `last` column and row, whose centres it may cover.
     #[inline]
     pub(super) fn bounds(&self, last: [i32; 2]) -> Option<Bounds> {
-        let pixels = |[low, high]: [i32; 2], last: i32| {
-            [((low + SUBPIXELS - 1) >> SUBPIXEL_BITS).max(0), (high >> SUBPIXEL_BITS).min(last)]
-        };
-        let (columns, rows) = (pixels(self.extent(|v| v.x), last[0]), pixels(self.extent(|v| v.y), last[1]));
+        let first = |low: i32| ((low + SUBPIXELS - 1) >> SUBPIXEL_BITS).max(0);
+        let columns = [first(self.columns[0]), (self.columns[1] >> SUBPIXEL_BITS).min(last[0])];
+        let rows = [first(self.rows[0]), (self.rows[1] >> SUBPIXEL_BITS).min(last[1])];
         (columns[0] <= columns[1] && rows[0] <= rows[1]).then_some(Bounds { columns, rows })
     }
 
     /// Depth of its nearest vertex.
     #[inline]
     pub(super) fn nearest(&self) -> f32 {
-        let [a, b, c] = self.0.map(|v| v.depth);
-        a.min(b).min(c)
+        let [a, b, c] = &self.vertices;
+        a.depth.min(b.depth).min(c.depth)
     }
 
     /// Whether its edge functions fit in `i32`.
     #[inline]
     pub(super) fn is_small(&self) -> bool {
-        [self.extent(|v| v.x), self.extent(|v| v.y)].iter().all(|[low, high]| high - low <= LONGEST_IN_I32)
+        (self.columns[1] - self.columns[0]).max(self.rows[1] - self.rows[0]) <= LONGEST_IN_I32
     }
 
+    #[inline]
     fn edges(&self) -> [(ScreenVertex, ScreenVertex); 3] {
-        let [a, b, c] = self.0;
+        let [a, b, c] = self.vertices;
         [(a, b), (b, c), (c, a)]
     }
 
     /// Edge functions of a small triangle at the first pixels of the first row of `bounds`.
     #[inline]
     pub(super) fn lane_edges(&self, bounds: &Bounds) -> [LaneEdge; 3] {
-        self.edges().map(|(from, to)| {
-            let (dx, dy) = (to.x - from.x, to.y - from.y);
-            let [x, y] = [bounds.columns[0] * SUBPIXELS - from.x, bounds.rows[0] * SUBPIXELS - from.y];
-            let first = dx * y - dy * x - i32::from(!is_top_or_left(dx, dy));
-            let step = -dy * SUBPIXELS;
-            // first + lane · step, from the two bits of the lane.
-            let odd = i32x4::splat(step) & i32x4::from([0, -1, 0, -1]);
-            let upper = i32x4::splat(2 * step) & i32x4::from([0, 0, -1, -1]);
-            LaneEdge {
-                value: i32x4::splat(first) + odd + upper,
-                per_lanes: i32x4::splat(LANE_STEP * step),
-                per_row: i32x4::splat(dx * SUBPIXELS),
-            }
-        })
+        let [a, b, c] = &self.vertices;
+        [LaneEdge::new(a, b, bounds), LaneEdge::new(b, c, bounds), LaneEdge::new(c, a, bounds)]
     }
 
     /// The columns of `bounds` that are inside in row `y`, first to last; none when they are in reverse order.
@@ -158,10 +154,29 @@ pub(super) struct LaneEdge {
     pub(super) per_row: i32x4,
 }
 
+impl LaneEdge {
+    #[inline]
+    fn new(from: &ScreenVertex, to: &ScreenVertex, bounds: &Bounds) -> Self {
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let (x, y) = (bounds.columns[0] * SUBPIXELS - from.x, bounds.rows[0] * SUBPIXELS - from.y);
+        let first = dx * y - dy * x - i32::from(!is_top_or_left(dx, dy));
+        let step = -dy * SUBPIXELS;
+        // first + lane · step, from the two bits of the lane.
+        let odd = i32x4::splat(step) & i32x4::from([0, -1, 0, -1]);
+        let upper = i32x4::splat(2 * step) & i32x4::from([0, 0, -1, -1]);
+        Self {
+            value: i32x4::splat(first) + odd + upper,
+            per_lanes: i32x4::splat(LANE_STEP * step),
+            per_row: i32x4::splat(dx * SUBPIXELS),
+        }
+    }
+}
+
 /// Twice the area of (a, b, c), grid steps squared, positive when they turn clockwise on the screen.
 #[inline]
 fn cross(a: ScreenVertex, b: ScreenVertex, c: ScreenVertex) -> i64 {
-    let [bx, by, cx, cy] = [b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y].map(i64::from);
+    let (bx, by) = (i64::from(b.x - a.x), i64::from(b.y - a.y));
+    let (cx, cy) = (i64::from(c.x - a.x), i64::from(c.y - a.y));
     bx * cy - cx * by
 }
 
@@ -187,10 +202,11 @@ pub(super) struct DepthPlane {
 impl DepthPlane {
     #[inline]
     pub(super) fn new(triangle: &Triangle) -> Self {
-        let [a, b, c] = triangle.0;
-        let [bx, by, cx, cy] = [b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y].map(|v| v as f32);
+        let [a, b, c] = triangle.vertices;
+        let (bx, by) = ((b.x - a.x) as f32, (b.y - a.y) as f32);
+        let (cx, cy) = ((c.x - a.x) as f32, (c.y - a.y) as f32);
         let (db, dc) = (b.depth - a.depth, c.depth - a.depth);
-        let scale = SUBPIXELS as f32 / cross(a, b, c) as f32;
+        let scale = SUBPIXELS as f32 / triangle.area as f32;
         Self {
             x: a.x as f32 / SUBPIXELS as f32,
             y: a.y as f32 / SUBPIXELS as f32,

@@ -17,8 +17,30 @@ pub use recorder::Recorder;
 pub use table::read_pose_table;
 
 use crate::stepping::{BodyState, Frame};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::PathBuf;
+
+/// What a recording holds beside its frames.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Recording {
+    /// How poses are stored.
+    pub packing: Packing,
+    /// Place of each body's shape among the scene's, in the order of the frames.
+    pub body_shapes: Vec<usize>,
+    /// Where the spray of the run pointed.
+    pub aim: Option<RecordedAim>,
+}
+
+/// Where a spray pointed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RecordedAim {
+    /// Middle of the zone, m.
+    pub target: Vector3<f64>,
+    /// Unit vector from the zone to the nozzle.
+    pub normal: Vector3<f64>,
+}
 
 /// A frame that was stored. Its bodies are at rest.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +68,17 @@ impl StoredFrame {
     }
 }
 
+impl From<&Frame<'_>> for StoredFrame {
+    fn from(frame: &Frame<'_>) -> Self {
+        Self {
+            index: frame.index,
+            time: frame.time,
+            drum_angle: frame.drum_angle,
+            bodies: frame.bodies.to_vec(),
+        }
+    }
+}
+
 /// Why poses cannot be stored or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PoseError {
@@ -64,14 +97,10 @@ pub enum PoseError {
         path: PathBuf,
     },
     /// A recording that is to be gone on with is of another kind or of other bodies.
-    #[error("{path} holds {found} bodies in another packing or number than the {expected} to be recorded")]
+    #[error("{path} is a recording of other bodies, in another packing or with another aim")]
     Other {
         /// The file.
         path: PathBuf,
-        /// Bodies in the file.
-        found: usize,
-        /// Bodies in the run.
-        expected: usize,
     },
     /// A table cannot be read.
     #[error("{path}: {source}")]

@@ -1,6 +1,6 @@
 //! Reading a recording.
 
-use super::{Packing, PoseError, StoredFrame, block};
+use super::{PoseError, Recording, StoredFrame, block};
 use crate::stepping::BodyState;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -9,16 +9,17 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 /// What a recording begins with, as JSON.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Header {
     /// Version of the format.
     pub(super) pancoat_poses: u32,
-    pub(super) bodies: usize,
-    pub(super) packing: Packing,
+    pub(super) recording: Recording,
 }
 
 /// The version this program writes and reads.
 pub(super) const VERSION: u32 = 1;
+/// Bytes of a frame before its poses: its number, its time and the drum's angle.
+const FRAME_HEAD: usize = 24;
 
 /// The frames of a recording, one after the other.
 #[derive(Debug)]
@@ -49,14 +50,20 @@ impl PoseReader {
         }
     }
 
-    /// How many bodies each frame has.
-    pub fn bodies(&self) -> usize {
-        self.header.bodies
+    /// What is recorded.
+    pub fn recording(&self) -> &Recording {
+        &self.header.recording
     }
 
-    /// How poses are stored.
-    pub fn packing(&self) -> Packing {
-        self.header.packing
+    /// How many frames follow, by the size of the file.
+    ///
+    /// # Errors
+    /// [`PoseError::Io`].
+    pub fn frames_left(&self) -> Result<u64, PoseError> {
+        let file = self.file.get_ref().metadata();
+        let size = file.map_err(|source| PoseError::Io { path: self.path.clone(), source })?.len();
+        let Recording { packing, body_shapes, .. } = self.recording();
+        Ok(size.saturating_sub(self.sound) / block::size(FRAME_HEAD + packing.bytes() * body_shapes.len()))
     }
 
     /// Bytes of the header and the frames read so far.
@@ -64,22 +71,19 @@ impl PoseReader {
         self.sound
     }
 
-    pub(super) fn header(&self) -> &Header {
-        &self.header
-    }
-
     fn decode(&self, content: &[u8]) -> Option<StoredFrame> {
-        let (head, poses) = content.split_at_checked(24)?;
+        let (head, poses) = content.split_at_checked(FRAME_HEAD)?;
         let (head, _) = head.as_chunks::<8>();
-        let size = self.header.packing.bytes();
-        (poses.len() == size * self.header.bodies).then(|| StoredFrame {
+        let Recording { packing, body_shapes, .. } = self.recording();
+        let size = packing.bytes();
+        (poses.len() == size * body_shapes.len()).then(|| StoredFrame {
             index: u64::from_le_bytes(head[0]),
             time: f64::from_le_bytes(head[1]),
             drum_angle: f64::from_le_bytes(head[2]),
             bodies: poses
                 .chunks_exact(size)
                 .map(|pose| {
-                    let (position, orientation) = self.header.packing.read(pose);
+                    let (position, orientation) = packing.read(pose);
                     BodyState { position, orientation, velocity: Vector3::zeros(), spin: Vector3::zeros() }
                 })
                 .collect(),

@@ -1,7 +1,7 @@
 //! Writing a recording.
 
 use super::reader::{Header, VERSION};
-use super::{Packing, PoseError, PoseReader, block};
+use super::{Packing, PoseError, PoseReader, Recording, block};
 use crate::stepping::{Frame, Observer};
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -18,14 +18,14 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Begins a recording of `bodies` bodies, in place of what is at `path`.
+    /// Begins a recording, in place of what is at `path`.
     ///
     /// # Errors
     /// [`PoseError::Io`].
-    pub fn create(path: &Path, bodies: usize, packing: Packing) -> Result<Self, PoseError> {
+    pub fn create(path: &Path, recording: Recording) -> Result<Self, PoseError> {
         let io = |source| PoseError::Io { path: path.into(), source };
-        let mut recorder = Self::to_file(path, File::create(path).map_err(io)?, packing);
-        let header = Header { pancoat_poses: VERSION, bodies, packing };
+        let mut recorder = Self::to_file(path, File::create(path).map_err(io)?, recording.packing);
+        let header = Header { pancoat_poses: VERSION, recording };
         let header = serde_json::to_vec(&header).map_err(|error| io(error.into()))?;
         block::write(&mut recorder.file, &header).and_then(|()| recorder.file.flush()).map_err(io)?;
         Ok(recorder)
@@ -35,11 +35,11 @@ impl Recorder {
     ///
     /// # Errors
     /// [`PoseError::Io`], [`PoseError::NotPoses`], [`PoseError::Other`] when it holds other bodies or another packing.
-    pub fn resume(path: &Path, bodies: usize, packing: Packing, next: u64) -> Result<Self, PoseError> {
+    pub fn resume(path: &Path, recording: &Recording, next: u64) -> Result<Self, PoseError> {
         let io = |source| PoseError::Io { path: path.into(), source };
         let mut reader = PoseReader::open(path)?;
-        if *reader.header() != (Header { pancoat_poses: VERSION, bodies, packing }) {
-            return Err(PoseError::Other { path: path.into(), found: reader.bodies(), expected: bodies });
+        if reader.recording() != recording {
+            return Err(PoseError::Other { path: path.into() });
         }
         let mut kept = reader.sound();
         while let Some(frame) = reader.next() {
@@ -50,7 +50,7 @@ impl Recorder {
         }
         let mut file = OpenOptions::new().write(true).open(path).map_err(io)?;
         file.set_len(kept).and_then(|()| file.seek(SeekFrom::End(0))).map_err(io)?;
-        Ok(Self::to_file(path, file, packing))
+        Ok(Self::to_file(path, file, recording.packing))
     }
 
     fn to_file(path: &Path, file: File, packing: Packing) -> Self {
@@ -105,6 +105,10 @@ mod tests {
         recorder.flush().unwrap();
     }
 
+    fn bed(bodies: usize, packing: Packing) -> Recording {
+        Recording { packing, body_shapes: vec![0; bodies], aim: None }
+    }
+
     fn indices(path: &Path) -> Vec<u64> {
         PoseReader::open(path).unwrap().map(|frame| frame.unwrap().index).collect()
     }
@@ -112,7 +116,7 @@ mod tests {
     #[test]
     fn frames_come_back_as_they_were() {
         let file = tempfile::NamedTempFile::new().unwrap();
-        record(&mut Recorder::create(file.path(), 5, Packing::Exact).unwrap(), 0..4);
+        record(&mut Recorder::create(file.path(), bed(5, Packing::Exact)).unwrap(), 0..4);
         let frames: Vec<_> = PoseReader::open(file.path()).unwrap().map(Result::unwrap).collect();
         assert_eq!(frames.len(), 4);
         let bodies = tumbled(5, [0.1; 3], 3);
@@ -126,17 +130,16 @@ mod tests {
     fn a_torn_recording_is_gone_on_with_where_it_was_sound() {
         let compact = Packing::Compact { min: Vector3::repeat(-0.2), max: Vector3::repeat(0.2) };
         let file = tempfile::NamedTempFile::new().unwrap();
-        record(&mut Recorder::create(file.path(), 5, compact).unwrap(), 0..6);
+        record(&mut Recorder::create(file.path(), bed(5, compact)).unwrap(), 0..6);
         let whole = std::fs::read(file.path()).unwrap();
         std::fs::write(file.path(), &whole[..whole.len() - 3]).unwrap();
         assert_eq!(indices(file.path()), [0, 1, 2, 3, 4]);
-        record(&mut Recorder::resume(file.path(), 5, compact, 4).unwrap(), 4..6);
+        record(&mut Recorder::resume(file.path(), &bed(5, compact), 4).unwrap(), 4..6);
         assert_eq!(std::fs::read(file.path()).unwrap(), whole);
-        assert!(matches!(
-            Recorder::resume(file.path(), 6, compact, 0),
-            Err(PoseError::Other { found: 5, .. })
-        ));
-        assert!(matches!(Recorder::resume(file.path(), 5, Packing::Exact, 0), Err(PoseError::Other { .. })));
+        assert_eq!(PoseReader::open(file.path()).unwrap().frames_left().unwrap(), 6);
+        for other in [bed(6, compact), bed(5, Packing::Exact)] {
+            assert!(matches!(Recorder::resume(file.path(), &other, 0), Err(PoseError::Other { .. })));
+        }
         std::fs::write(file.path(), "time_s,id\n").unwrap();
         assert!(matches!(PoseReader::open(file.path()), Err(PoseError::NotPoses { .. })));
     }

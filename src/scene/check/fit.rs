@@ -1,7 +1,7 @@
 //! Whether the parts of a scene fit together.
 
 use super::super::fault::FaultKind;
-use super::super::model::{Aim, Drum, Scene, Spray};
+use super::super::model::{Aim, Drum, Record, Scene, Spray};
 use super::super::path::KeyPath;
 use super::super::recipe::Recipe;
 use super::pattern::LONGEST_PHASE;
@@ -25,6 +25,9 @@ pub(super) fn fit_together(c: &mut Checker<'_>, scene: &Scene) {
         }
         if scene.spray.is_some() {
             c.fault(&at.field("spray"), FaultKind::Needs("a drum"));
+        }
+        if scene.outputs.record == Some(Record::Compact) {
+            c.fault(&at.field("outputs").field("record"), FaultKind::Needs("a drum"));
         }
     }
     if let Some(drum) = &scene.drum {

@@ -1,5 +1,6 @@
 //! The spray.
 
+use super::super::fault::FaultKind;
 use super::super::model::{Aim, Deposit, Spray};
 use super::super::path::KeyPath;
 use super::super::spec::{AimSpec, DepositSpec, SpraySpec};
@@ -9,6 +10,9 @@ use nalgebra::Vector3;
 
 /// Extents of the spray zone and distance of the nozzle, m.
 const EXTENT: Allowed = Allowed::from(1e-3).to(10.0);
+
+/// Measured mean thickness of a film, m.
+const THICKNESS: Allowed = Allowed::from(1e-9).to(1e-2);
 
 /// Nozzle to bed unless the scene says otherwise, m.
 const DISTANCE: f64 = 0.05;
@@ -53,12 +57,20 @@ pub(super) fn spray(c: &mut Checker<'_>, spec: SpraySpec) -> Spray {
 
 fn deposit(c: &mut Checker<'_>, at: &KeyPath, spec: Option<DepositSpec>) -> Deposit {
     let Some(spec) = spec else {
-        return Deposit { rate: f64::NAN, solids: f64::NAN, film_density: f64::NAN };
+        return Deposit::Measured { mean_thickness: f64::NAN, film_density: f64::NAN };
     };
     let path = at.field("film_density");
-    Deposit {
+    let film_density = c.number_or(&path, spec.film_density, FILM_DENSITY, Allowed::from(100.0).to(25_000.0));
+    if let Some(thickness) = spec.mean_thickness {
+        if spec.rate.is_some() || spec.solids.is_some() {
+            c.fault(at, FaultKind::EitherOr("rate", "mean_thickness"));
+        }
+        let mean_thickness = c.number(&at.field("mean_thickness"), Some(thickness), THICKNESS);
+        return Deposit::Measured { mean_thickness, film_density };
+    }
+    Deposit::Sprayed {
         rate: c.number(&at.field("rate"), spec.rate, Allowed::above(0.0).to(10.0)),
         solids: c.number::<Number>(&at.field("solids"), spec.solids, Allowed::above(0.0).to(1.0)),
-        film_density: c.number_or(&path, spec.film_density, FILM_DENSITY, Allowed::from(100.0).to(25_000.0)),
+        film_density,
     }
 }

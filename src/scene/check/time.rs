@@ -1,9 +1,11 @@
 //! Step, duration, outputs and the choices of the contact law.
 
-use super::super::model::{ContactSettings, DampingMass, Outputs, Settle, StepChoice, TangentialLaw, Time};
+use super::super::model::{
+    ContactSettings, DampingMass, Outputs, Record, Settle, StepChoice, TangentialLaw, Time,
+};
 use super::super::path::KeyPath;
 use super::super::spec::{
-    ContactSpec, DampingMassSpec, OutputsSpec, SettleSpec, StepSpec, TangentialSpec, TimeSpec,
+    ContactSpec, DampingMassSpec, OutputsSpec, RecordSpec, SettleSpec, StepSpec, TangentialSpec, TimeSpec,
 };
 use super::{Allowed, Checker};
 
@@ -83,5 +85,9 @@ pub(super) fn outputs(c: &mut Checker<'_>, spec: OutputsSpec, frame_interval: f6
         report: spec.report.unwrap_or(true),
         picture: spec.picture.unwrap_or(true),
         statistics: spec.statistics.unwrap_or(true),
+        record: spec.record.map(|record| match record {
+            RecordSpec::Compact => Record::Compact,
+            RecordSpec::Exact => Record::Exact,
+        }),
     }
 }

@@ -1,15 +1,17 @@
-//! The coater's frames drawn on a graphics card.
+//! The coater's frames drawn and counted on a graphics card.
 //!
-//! The same candidates as on the processor, drawn into a target of whole numbers that is read back and counted there:
-//! half a megabyte a frame, and every count, even or weighted, passes through one piece of code. Vulkan, Metal and D3D12
-//! do not promise the same pixels on all hardware: vertices that fall to the other side of a step of the grid move single
-//! pixels at the edges of panels, some in a hundred thousand.
+//! The same candidates as on the processor, drawn into a target of whole numbers and counted there, where the counts of
+//! panels add up over frames, in 64 bits, until they are asked for; only the counts of bodies come back with each batch of
+//! frames. Vulkan, Metal and D3D12 do not promise the same pixels on all hardware: vertices that fall to the other side of
+//! a step of the grid move single pixels at the edges of panels, some in a hundred thousand.
 
 mod setup;
 
 use super::bed::Bed;
+use super::counter::{GpuError, PENDING};
 use super::film::PanelIds;
-use super::painter::GpuError;
+use super::gun::SprayGun;
+use super::ledger::Exposure;
 use super::view::{Placement, View};
 use crate::scene::Rays;
 use crate::stepping::Frame;
@@ -17,25 +19,35 @@ use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A graphics card and what it needs to draw a bed.
+/// A graphics card and what it needs to draw and count a bed.
 #[derive(Debug)]
-pub(super) struct GpuRaster {
+pub(super) struct GpuCounter {
     name: String,
     device: wgpu::Device,
     queue: wgpu::Queue,
     /// For bodies, seen from outside, and for the drum, seen from both sides.
-    pipelines: [wgpu::RenderPipeline; 2],
-    bindings: wgpu::BindGroup,
+    draw: [wgpu::RenderPipeline; 2],
+    draw_bindings: wgpu::BindGroup,
+    count: wgpu::ComputePipeline,
+    count_bindings: wgpu::BindGroup,
     view: wgpu::Buffer,
     instances: wgpu::Buffer,
-    target: wgpu::Texture,
+    target: wgpu::TextureView,
     depth: wgpu::TextureView,
-    image: wgpu::Buffer,
+    counts: Counted,
+    seen: Counted,
     pixels: [u32; 2],
+    weighted: bool,
     /// Corners of each shape and then of each part of the drum.
     corners: Vec<Range<u32>>,
     fault: Fault,
-    ids: Vec<u32>,
+}
+
+/// Counts of 64 bits on the card, and where they are read from.
+#[derive(Debug)]
+struct Counted {
+    on_card: wgpu::Buffer,
+    readable: wgpu::Buffer,
 }
 
 /// The first thing that a device has reported.
@@ -49,7 +61,10 @@ struct GpuView {
     distance: f32,
     near: f32,
     diverging: u32,
-    unused: u32,
+    slot: u32,
+    bodies: u32,
+    weighted: u32,
+    unused: [u32; 2],
 }
 
 #[repr(C)]
@@ -70,17 +85,63 @@ struct Run {
     is_body: bool,
 }
 
-impl GpuRaster {
+impl GpuCounter {
     /// What it is, for the record of a run.
     pub(super) fn name(&self) -> &str {
         &self.name
     }
 
-    /// Draws a frame and gives the numbers seen, row by row.
+    /// Counts at most [`PENDING`] frames and gives the bodies seen in each.
     ///
     /// # Errors
     /// [`GpuError::Failed`].
-    pub(super) fn draw(&mut self, bed: &Bed, view: &View, frame: &Frame<'_>) -> Result<&[u32], GpuError> {
+    pub(super) fn count(
+        &mut self,
+        bed: &Bed,
+        gun: &SprayGun,
+        frames: &[&Frame<'_>],
+    ) -> Result<Vec<Vec<Exposure>>, GpuError> {
+        let mut encoder = self.encoder();
+        encoder.clear_buffer(&self.seen.on_card, 0, None);
+        self.queue.submit([encoder.finish()]);
+        for (slot, frame) in (0..).zip(frames) {
+            for view in gun.views(frame.index) {
+                self.submit(bed, &view, frame, slot);
+            }
+        }
+        let seen = self.read(&self.seen)?;
+        let bodies = bed.ids().bodies();
+        let exposed = |counts: &[u64]| {
+            let bodies = counts.iter().enumerate().filter(|(_, counts)| **counts > 0);
+            bodies.map(|(body, &counts)| Exposure { body, counts }).collect()
+        };
+        Ok((0..frames.len()).map(|slot| exposed(&seen[slot * bodies..][..bodies])).collect())
+    }
+
+    /// Counts of every number since they were last collected.
+    ///
+    /// # Errors
+    /// [`GpuError::Failed`].
+    pub(super) fn collect(&mut self) -> Result<Vec<u64>, GpuError> {
+        let counts = self.read(&self.counts)?;
+        let mut encoder = self.encoder();
+        encoder.clear_buffer(&self.counts.on_card, 0, None);
+        self.queue.submit([encoder.finish()]);
+        Ok(counts)
+    }
+
+    /// Loses the device.
+    #[cfg(test)]
+    pub(super) fn lose(&self) {
+        self.device.destroy();
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
+    /// Has a view drawn and counted; does not wait for it.
+    fn submit(&self, bed: &Bed, view: &View, frame: &Frame<'_>, slot: u32) {
         let (instances, runs) = self.instances(bed, view, frame);
         let lens = view.lens();
         let seen = GpuView {
@@ -89,22 +150,22 @@ impl GpuRaster {
             distance: lens.distance(),
             near: lens.near(),
             diverging: u32::from(lens.rays() == Rays::Diverging),
-            unused: 0,
+            slot,
+            bodies: bed.ids().bodies() as u32,
+            weighted: u32::from(self.weighted),
+            unused: [0; 2],
         };
         self.queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&seen));
         self.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&instances));
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.encode_pass(&mut encoder, bed.ids().panels() + PanelIds::EMPTY, &runs);
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(setup::row_bytes(self.pixels)),
-            rows_per_image: None,
-        };
-        let to = wgpu::TexelCopyBufferInfo { buffer: &self.image, layout };
-        encoder.copy_texture_to_buffer(self.target.as_image_copy(), to, setup::extent(self.pixels));
+        let mut encoder = self.encoder();
+        self.encode_drawing(&mut encoder, bed.ids().panels() + PanelIds::EMPTY, &runs);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&self.count);
+        pass.set_bind_group(0, &self.count_bindings, &[]);
+        let [across, down] = self.pixels.map(|size| size.div_ceil(8));
+        pass.dispatch_workgroups(across, down, 1);
+        drop(pass);
         self.queue.submit([encoder.finish()]);
-        self.read()?;
-        Ok(&self.ids)
     }
 
     /// What is drawn, one shape after the other and then the drum: the instances, and which of them are of what.
@@ -139,11 +200,11 @@ impl GpuRaster {
         (instances, runs)
     }
 
-    fn encode_pass(&self, encoder: &mut wgpu::CommandEncoder, background: u32, runs: &[Run]) {
+    fn encode_drawing(&self, encoder: &mut wgpu::CommandEncoder, background: u32, runs: &[Run]) {
         let clear = wgpu::Color { r: f64::from(background), ..wgpu::Color::BLACK };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.target.create_view(&wgpu::TextureViewDescriptor::default()),
+                view: &self.target,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
@@ -158,32 +219,31 @@ impl GpuRaster {
             }),
             ..Default::default()
         });
-        pass.set_bind_group(0, &self.bindings, &[]);
+        pass.set_bind_group(0, &self.draw_bindings, &[]);
         for run in runs {
-            pass.set_pipeline(&self.pipelines[usize::from(!run.is_body)]);
+            pass.set_pipeline(&self.draw[usize::from(!run.is_body)]);
             let corners = &self.corners[run.drawn];
             pass.draw(0..corners.end - corners.start, run.instances.clone());
         }
     }
 
-    /// Reads the image back.
-    fn read(&mut self) -> Result<(), GpuError> {
+    /// Waits for all that was submitted and reads counts.
+    fn read(&self, counted: &Counted) -> Result<Vec<u64>, GpuError> {
+        let failed = |error: &dyn std::fmt::Display| GpuError::Failed(error.to_string());
+        let mut encoder = self.encoder();
+        encoder.copy_buffer_to_buffer(&counted.on_card, 0, &counted.readable, 0, None);
+        self.queue.submit([encoder.finish()]);
         // Whether it succeeded is seen when the range is taken.
-        self.image.map_async(wgpu::MapMode::Read, .., |_| {});
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| GpuError::Failed(error.to_string()))?;
+        counted.readable.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
         self.check()?;
-        self.ids.clear();
-        {
-            let image =
-                self.image.get_mapped_range(..).map_err(|error| GpuError::Failed(error.to_string()))?;
-            for row in image.chunks_exact(setup::row_bytes(self.pixels) as usize) {
-                self.ids.extend_from_slice(bytemuck::cast_slice(&row[..4 * self.pixels[0] as usize]));
-            }
-        }
-        self.image.unmap();
-        self.check()
+        let counts = {
+            let range = counted.readable.get_mapped_range(..).map_err(|error| failed(&error))?;
+            bytemuck::pod_collect_to_vec::<u8, u64>(&range)
+        };
+        counted.readable.unmap();
+        self.check()?;
+        Ok(counts)
     }
 
     /// Whether the device has reported anything.

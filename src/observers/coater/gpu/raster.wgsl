@@ -10,7 +10,11 @@ struct View {
     distance: f32,
     near: f32,
     diverging: u32,
-    unused: u32,
+    // Of no use here: see the counting.
+    slot: u32,
+    bodies: u32,
+    weighted: u32,
+    unused: vec2u,
 }
 
 struct Instance {
