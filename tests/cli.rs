@@ -227,7 +227,7 @@ fn the_drum_is_written_as_a_mesh() {
     let (folder, scene, _) = small();
     let file = folder.path().join("drum.stl");
     pancoat(&["drum", &scene, "--out", &file.display().to_string()]).success();
-    let mesh = pancoat::shapes::read_surface(&file, 1e-3).expect("is STL");
+    let mesh = pancoat::shapes::read_surface(&file, 1e-3).expect("is STL").mesh;
     let widest = mesh.vertices.iter().map(|v| v.x.hypot(v.y)).fold(0.0, f64::max);
     assert!((widest - 0.06).abs() < 1e-3, "{widest}");
 }
