@@ -321,7 +321,7 @@ fn drums_lean_and_come_from_meshes() {
     let mesh = format!("drum.wall=Mesh(file: \"{pan}\", unit: Mm(1))");
     let cones = "drum.wall=Profile([(Mm(-50), Mm(200)), (Mm(-30), Mm(250)), (Mm(50), Mm(250))])";
     let mean_z = |overrides: &[&str]| {
-        let all = ["spray=None", "batches[0].mass=G(100)", "drum.speed=Rpm(22)"].iter().chain(overrides);
+        let all = ["spray=None", "batches[0].count=80", "drum.speed=Rpm(22)"].iter().chain(overrides);
         let all: Vec<String> = all.map(ToString::to_string).collect();
         let scene = Scene::load(&scene_path("sphere"), &all).expect("is valid");
         let mut simulation = Simulation::new(&scene).expect("is built");

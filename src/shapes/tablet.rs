@@ -247,9 +247,8 @@ mod tests {
     }
 
     /// With 0.1561 as the paper prints it, band height follows from the perimeter 2π p₀ of the outline, cap height from the
-    /// thickness, and the exponent from the volume; the area that is left to come out is 652.1 mm². Over the convex outlines
-    /// of the family it misses that by 1 % and more, and by 3 % and more with exponents that a cup has (a spherical one is
-    /// about 2.1, the fullest of the other three tablets 3.6). With 0.6151 all outlines near that of the scene fit.
+    /// thickness, and the exponent from the volume; the area that is left to come out misses the paper's by 3.6 % and more
+    /// over all convex outlines of the family. With 0.6151 it comes out.
     #[test]
     fn the_printed_band_over_face_area_of_the_triangular_tablet_cannot_be() {
         let (length, width, thickness, area, volume) = (19.2e-3, 12.5e-3, 8.46e-3, 652.1e-6, 1300e-9);
@@ -264,7 +263,7 @@ mod tests {
             let exponent = 2.0 * fill / (1.0 - fill);
             let recipe = Recipe::Pressed { outline, band, cap: Cap::Compound { height, exponent } };
             let sound = recipe.fault().is_none() && (1.0..50.0).contains(&exponent);
-            sound.then(|| (exponent, Solid::new(&recipe).expect("is sound").area() / area - 1.0))
+            sound.then(|| Solid::new(&recipe).expect("is sound").area() / area - 1.0)
         };
         let family = |ratio: f64| {
             let outlines = (-10..=10).flat_map(|c4| (0..=12).map(move |c3| (c4, c3)));
@@ -272,14 +271,10 @@ mod tests {
                 .filter_map(|(c4, c3)| misfit(ratio, f64::from(c4) * 0.05 * MM, f64::from(c3) * 0.05 * MM));
             found.collect::<Vec<_>>()
         };
-        let least = |found: &[(f64, f64)], most: f64| {
-            let cups = found.iter().filter(|(exponent, _)| *exponent < most);
-            cups.map(|(_, misfit)| misfit.abs()).fold(f64::INFINITY, f64::min)
-        };
+        let least = |found: &[f64]| found.iter().fold(f64::INFINITY, |l, misfit| l.min(misfit.abs()));
         let (printed, swapped) = (family(0.1561), family(0.6151));
         assert!(printed.len() > 20 && swapped.len() > 20, "{} {}", printed.len(), swapped.len());
-        assert!(least(&printed, 50.0) > 0.01 && least(&printed, 5.0) > 0.03);
-        assert!(least(&swapped, 5.0) < 1e-3);
+        assert!(least(&printed) > 0.03 && least(&swapped) < 1e-3);
     }
 
     /// Over 200 even directions, m².
