@@ -334,6 +334,15 @@ mod tests {
             let deviation = tablet.clump.deviation(&panels);
             assert_good(&panels, 1750);
             assert_eq!(tablet.clump.spheres.len(), 50);
+            // Edges run along both rims: no panel reaches from the band over onto a cap.
+            let Recipe::Pressed { band, .. } = shape.recipe else { unreachable!("all are pressed") };
+            for (panel, region) in panels.corners().zip(&panels.regions) {
+                let on_side = |p: &Vector3<f64>| match region {
+                    Region::Band => p.z.abs() < band / 2.0 + 1e-12,
+                    Region::Cap => p.z.abs() > band / 2.0 - 1e-12,
+                };
+                assert!(panel.iter().all(on_side), "{}", shape.name);
+            }
             let fine = Solid::new(&shape.recipe).expect("good").panels(3500).expect("a surface");
             let inside = fine.centroids.iter().all(|c| tablet.clump.distance(c) > -0.02 * MM);
             assert!(inside, "{}", shape.name);
