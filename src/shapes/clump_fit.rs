@@ -336,4 +336,28 @@ mod tests {
         let fit = || fit(SphereBudget::Count(30), Placement::Inscribed);
         assert_eq!(fit(), fit());
     }
+
+    /// The round tablet of the paper by another generator (docs/data/clumps/mss.py says which), as good as its settings
+    /// make it: spheres of both stick out of the surface here, so the clumps of this fit are balanced.
+    #[test]
+    fn clumps_are_nearer_than_those_of_a_published_generator() {
+        let cap = Cap::Compound { height: 1.6973 * MM, exponent: 2.8823 };
+        let round = Recipe::Round { diameter: 15.9 * MM, band: 3.2452 * MM, cap };
+        let round = Solid::new(&round).expect("good");
+        let surface = round.panels(6000).expect("a surface");
+        for count in [20, 50, 100] {
+            let path = format!("{}/docs/data/clumps/mss_{count}.txt", env!("CARGO_MANIFEST_DIR"));
+            let text = std::fs::read_to_string(path).expect("is part of the repository");
+            let sphere = |line: &str| {
+                let numbers: Vec<f64> =
+                    line.split(' ').map(|x| x.parse::<f64>().expect("a number") * MM).collect();
+                Sphere { center: Vector3::new(numbers[0], numbers[1], numbers[2]), radius: numbers[3] }
+            };
+            let other = Clump { spheres: text.lines().map(sphere).collect() };
+            assert_eq!(other.spheres.len(), count);
+            let own = round.clump(SphereBudget::Count(count), Placement::Balanced).expect("a count is met");
+            let (own, other) = (own.deviation(&surface), other.deviation(&surface));
+            assert!(own.mean < 0.75 * other.mean && own.largest < 0.6 * other.largest, "{own:?} {other:?}");
+        }
+    }
 }
