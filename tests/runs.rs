@@ -241,7 +241,9 @@ fn debossed() -> String {
     };
     let mut text = "solid debossed\n".to_owned();
     let mut facet = |corners: [String; 3]| {
-        text += &format!("facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n", corners.concat());
+        for line in ["facet normal 0 0 0\nouter loop\n", &corners.concat(), "endloop\nendfacet\n"] {
+            text += line;
+        }
     };
     for (k, pair) in (0..AROUND).flat_map(|k| DEBOSSED.windows(2).map(move |pair| (k, pair))) {
         let [low, high] = [pair[0], pair[1]];
