@@ -7,7 +7,7 @@ use super::stopwatch::{Phase, Stopwatch};
 use super::time_step::TimeStep;
 use crate::contact::{ContactField, Tally, Wrench};
 use crate::scene::{Boundary, BoundarySurface, Scene};
-use crate::shapes::{ImportedSurface, Repair, SurfaceMesh, TabletShape, drum_surface, read_surface};
+use crate::shapes::{ImportedSurface, SurfaceMesh, TabletShape, drum_surface, read_surface};
 use crate::world::{Motion, World};
 use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
@@ -21,8 +21,8 @@ pub struct Simulation {
     pub(super) scene: Scene,
     shapes: Vec<TabletShape>,
     drum: Option<SurfaceMesh>,
-    /// What had to be put right in the meshes of surfaces.
-    repairs: Vec<Repair>,
+    /// What had to be put right in mesh files.
+    repairs: Vec<String>,
     time_step: TimeStep,
     step: u64,
     world: World,
@@ -57,10 +57,14 @@ impl Simulation {
             .map(|shape| TabletShape::build(shape, scene.spray.is_some()))
             .collect::<Result<Vec<_>, _>>()?;
         let drum = scene.drum.as_ref().map(drum_surface).transpose()?;
+        let of_shape = |s: &TabletShape| {
+            s.repairs.iter().map(|r| format!("shape `{}`: {r}", s.name)).collect::<Vec<_>>()
+        };
+        let of_drum = drum.iter().flat_map(|surface| surface.repairs.iter().map(|r| format!("drum: {r}")));
         let mut simulation = Self {
             time_step: TimeStep::choose(scene, &shapes),
             field: ContactField::new(scene, &shapes),
-            repairs: drum.iter().flat_map(|surface| surface.repairs.clone()).collect(),
+            repairs: shapes.iter().flat_map(of_shape).chain(of_drum).collect(),
             drum: drum.map(|surface| surface.mesh),
             scene: scene.clone(),
             shapes,
@@ -120,7 +124,7 @@ impl Simulation {
                 }
                 BoundarySurface::Mesh { path, scale } => {
                     let ImportedSurface { mesh, repairs } = read_surface(path, *scale)?;
-                    self.repairs.extend(repairs);
+                    self.repairs.extend(repairs.iter().map(|repair| format!("{}: {repair}", path.display())));
                     let index = self.world.add_surface(&mesh);
                     self.field.add_mesh(&mesh, index, boundary.material, false);
                     self.drives.push(drive);
@@ -294,8 +298,8 @@ impl Simulation {
     }
 
     /// What had to be put right in mesh files.
-    pub fn repairs(&self) -> impl Iterator<Item = &Repair> {
-        self.shapes.iter().flat_map(|shape| &shape.repairs).chain(&self.repairs)
+    pub fn repairs(&self) -> &[String] {
+        &self.repairs
     }
 
     /// The time step and its figures.
