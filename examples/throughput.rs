@@ -9,8 +9,8 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use pancoat::observers::{BedSurface, Coater, Observer};
 use pancoat::scene::{
-    ContactSettings, Drum, FreeBody, Material, Outputs, PairProperties, PairTable, Recipe, Scene, Settle,
-    Shape, StepChoice, Time,
+    ContactSettings, Drum, FreeBody, Material, Outputs, PairProperties, PairTable, Placement, Recipe, Scene,
+    Settle, Shape, SphereBudget, StepChoice, Time, Wall,
 };
 use pancoat::stepping::Simulation;
 use std::path::{Path, PathBuf};
@@ -110,14 +110,22 @@ fn peers(case: &str, dt: Option<f64>) -> Scene {
             Material { name: "steel".into(), shear_modulus: 3e6, poisson: 0.3 },
         ],
         pairs: PairTable::new(2, pair),
-        shapes: vec![Shape { name: "tablet".into(), recipe, spheres, panels: 0 }],
+        shapes: vec![Shape {
+            name: "tablet".into(),
+            recipe,
+            spheres: SphereBudget::Count(spheres),
+            placement: Placement::Inscribed,
+            panels: 0,
+        }],
         batches: vec![],
         drum: Some(Drum {
             diameter: 0.2,
             width: 0.1,
             speed: 22.0 * std::f64::consts::TAU / 60.0,
             material: 1,
+            wall: Wall::Cylinder,
             facets: 90,
+            axis_tilt: 0.0,
             baffles: None,
         }),
         bodies: bodies.collect(),

@@ -200,6 +200,13 @@ fn shapes_are_measured_and_written() {
     close("volume_mm3", 1042.0, 0.005);
     close("sphericity", 0.8502, 0.005);
     close("band_to_face", 0.3844, 0.01);
+    assert_eq!(sheet["table_4"]["aspect_ratio"], 2.556);
+    let words = stdout(&pancoat(&["shape", "triangular"]).success());
+    for line in
+        ["aspect ratio (L + W)/(2 T)          1.8735 (Table 4: 1.886)", "0.6151, its digits in another order"]
+    {
+        assert!(words.contains(line), "{line} is not in\n{words}");
+    }
     assert_eq!(sheet["clump"]["spheres"], 50);
     let largest = sheet["clump"]["largest_deviation_um"].as_f64().expect("is known");
     assert!((50.0..2000.0).contains(&largest), "{largest}");
@@ -209,6 +216,41 @@ fn shapes_are_measured_and_written() {
     let clump = fs::read_to_string(folder.path().join("round_clump.txt")).expect("is there");
     assert_eq!(clump.lines().filter(|line| line.split(' ').count() == 4).count(), 50);
     assert!(stdout(&pancoat(&["shape", "sphere"]).success()).contains("clump of 1 "));
+}
+
+/// Files of a tetrahedron, 8 mm long: one facet short, and one facet turned.
+#[test]
+fn mesh_faults_get_one_line_and_repairs_are_told() {
+    let corners = ["0 0 0", "8 0 0", "0 8 0", "0 0 8"];
+    let facet = |[a, b, c]: [usize; 3]| {
+        let [a, b, c] = [a, b, c].map(|k| format!("vertex {}\n", corners[k]));
+        format!("facet normal 0 0 0\nouter loop\n{a}{b}{c}endloop\nendfacet\n")
+    };
+    let stl = |facets: &[[usize; 3]]| {
+        format!("solid t\n{}endsolid t\n", facets.iter().map(|f| facet(*f)).collect::<String>())
+    };
+    let (folder, scene, out) = small();
+    let set = "shapes.ball=(recipe: Mesh(file: \"t.stl\", unit: Mm(1)), spheres: 5, panels: 80)";
+    let with = |facets: &[[usize; 3]], arguments: &[&str]| {
+        fs::write(folder.path().join("t.stl"), stl(facets)).expect("can be written");
+        pancoat(&[arguments, &["--set", set]].concat())
+    };
+    let good = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    for command in ["check", "run", "shape"] {
+        let out = if command == "run" { ["--out", &out].to_vec() } else { Vec::new() };
+        let assert = with(&good[..3], &[&[command, &scene], &out[..]].concat()).code(2);
+        let told = stderr(&assert);
+        assert_eq!(told.lines().count(), 1, "{told}");
+        assert!(told.contains("t.stl: the surface is open: 3 edges have a facet on one side only"), "{told}");
+    }
+    let turned = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 2, 3]];
+    let repair = "turned 1 facets that were wound against the others, the first is facet 4";
+    let told = stdout(&with(&turned, &["check", &scene]).success());
+    assert!(told.contains(repair), "{told}");
+    assert!(stdout(&with(&turned, &["shape", &scene]).success()).contains(repair));
+    with(&turned, &["run", &scene, "--out", &out, "--quiet", "--set", "spray=None"]).success();
+    let warnings = record(Path::new(&out))["warnings"].to_string();
+    assert!(warnings.contains(repair), "{warnings}");
 }
 
 #[test]
@@ -228,7 +270,7 @@ fn the_drum_is_written_as_a_mesh() {
     let (folder, scene, _) = small();
     let file = folder.path().join("drum.stl");
     pancoat(&["drum", &scene, "--out", &file.display().to_string()]).success();
-    let mesh = pancoat::shapes::read_surface(&file, 1e-3).expect("is STL");
+    let mesh = pancoat::shapes::read_surface(&file, 1e-3).expect("is STL").mesh;
     let widest = mesh.vertices.iter().map(|v| v.x.hypot(v.y)).fold(0.0, f64::max);
     assert!((widest - 0.06).abs() < 1e-3, "{widest}");
 }

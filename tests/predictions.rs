@@ -79,7 +79,12 @@ fn a_run_predicts_while_it_runs() {
 #[test]
 fn runs_side_by_side_make_a_page() {
     let page = RUN.0.path().join("compare.html");
-    let text = stdout(pancoat().arg("compare").args([&RUN.1, &RUN.1, &RUN.1]).arg("--out").arg(&page));
+    let table = RUN.0.path().join("runs.csv");
+    let mut command = pancoat();
+    command.arg("compare").args([&RUN.1, &RUN.1, &RUN.1]).arg("--out").arg(&page).arg("--csv").arg(&table);
+    let text = stdout(&mut command);
+    let rows = csv::Reader::from_path(&table).expect("is a table").records().count();
+    assert_eq!(rows, 3);
     assert_eq!(text.lines().filter(|line| line.starts_with("almond")).count(), 3, "{text}");
     if let Some(dom) = browser::dump_dom(&page) {
         let head = &dom[..300];

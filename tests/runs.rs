@@ -3,6 +3,7 @@
 
 use assert_cmd::Command;
 use pancoat::scene::Scene;
+use pancoat::shapes::TabletShape;
 use pancoat::stepping::Simulation;
 use serde_json::Value;
 use std::fs;
@@ -15,17 +16,14 @@ fn scene_path(name: &str) -> PathBuf {
 /// Runs a scene for `seconds` of spray and returns its record.
 fn run(name: &str, seconds: &str, overrides: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("can be made");
-    let out = folder.path().join("out");
+    run_into(&folder.path().join("out"), &scene_path(name), seconds, overrides)
+}
+
+/// The same, with what it writes left in `out`.
+fn run_into(out: &Path, scene: &Path, seconds: &str, overrides: &[&str]) -> Value {
     let mut command = Command::cargo_bin("pancoat").expect("is built");
-    command.arg("run").arg(scene_path(name)).args([
-        "--seconds",
-        seconds,
-        "--threads",
-        "1",
-        "--quiet",
-        "--out",
-    ]);
-    command.arg(&out);
+    command.arg("run").arg(scene).args(["--seconds", seconds, "--threads", "1", "--quiet", "--out"]);
+    command.arg(out);
     for set in overrides {
         command.args(["--set", set]);
     }
@@ -175,4 +173,168 @@ fn an_empty_drum_with_a_free_body_runs() {
     simulation.fill(&mut |_| true).expect("nothing waits");
     simulation.run(0, 10, &mut [], &mut |_| true).expect("runs");
     assert!(simulation.states()[0].position.y < -45.0e-3, "it fell");
+}
+
+/// Rows of a table by the names of its columns.
+fn rows(file: &Path) -> Vec<std::collections::HashMap<String, String>> {
+    let mut reader = csv::Reader::from_path(file).expect("is a table");
+    reader.deserialize().map(|row| row.expect("is a row")).collect()
+}
+
+/// Two shapes in one pan: both are filled and mixed, every tablet has its own id and panels, statistics are made of each
+/// shape, no coat gets lost between them, and the report shows both.
+#[test]
+fn two_shapes_share_a_pan() {
+    let folder = tempfile::tempdir().expect("can be made");
+    let out = folder.path().join("out");
+    let oval = "shapes.oval=(recipe: Oval(length: Mm(19.2), width: Mm(10.8), band: Mm(4.7), \
+                cap: Spherical(height: Mm(1.6))), spheres: 12, panels: 900)";
+    let batches = "batches=[(shape: \"round\", material: \"tablet\", tablet_mass: Mg(1300), count: 70), \
+                   (shape: \"oval\", material: \"tablet\", tablet_mass: Mg(1200), count: 50)]";
+    let record = run_into(&out, &scene_path("round"), "2", &["shapes.round.spheres=12", oval, batches]);
+    let tablets = rows(&out.join("tablets.csv"));
+    let ids: Vec<usize> = tablets.iter().map(|row| row["tablet"].parse().expect("a number")).collect();
+    assert_eq!(ids, (0..120).collect::<Vec<_>>());
+    let kinds: Vec<&str> = tablets.iter().map(|row| row["shape"].as_str()).collect();
+    for (kind, count, mass) in [("round", 70, "1300"), ("oval", 50, "1200")] {
+        assert_eq!(kinds.iter().filter(|k| **k == kind).count(), count);
+        assert!(kinds[..60].contains(&kind) && kinds[60..].contains(&kind), "batches are mixed");
+        let own = |row: &&std::collections::HashMap<String, String>| row["shape"] == kind;
+        assert!(tablets.iter().filter(own).all(|row| row["mass_mg"].starts_with(mass)));
+        let panels = rows(&out.join("panels.csv")).iter().filter(own).count();
+        assert_eq!(record["derived"]["panels"][kind], panels);
+        let results = &record["results"]["shapes"][kind];
+        for key in ["cov_intra", "cov_inter", "mean_thickness_um", "cov_intra_orientation_only"] {
+            assert!(results[key].as_f64().is_some_and(|x| x > 0.0), "{kind} {key}: {results}");
+        }
+    }
+    let coat: f64 = tablets.iter().map(|row| row["coat_mass_mg"].parse::<f64>().expect("a mass")).sum();
+    let efficiency = record["results"]["spray_efficiency"].as_f64().expect("is known");
+    assert!((coat / (7.5 / 60.0 * 0.2 * 2.0 * 1e3 * efficiency) - 1.0).abs() < 1e-9, "{coat}");
+    let report = fs::read_to_string(out.join("report.html")).expect("is there");
+    assert!(report.contains("oval") && report.contains("round"));
+}
+
+/// Corners of a debossed tablet in a half plane, (distance from the axis, z), mm: bevelled flat faces, the upper one with a
+/// ring 0.5 mm deep.
+const DEBOSSED: [[f64; 2]; 10] = [
+    [0.0, -2.2],
+    [3.9, -2.2],
+    [5.0, -1.5],
+    [5.0, 1.5],
+    [3.9, 2.2],
+    [3.2, 2.2],
+    [2.9, 1.7],
+    [2.1, 1.7],
+    [1.8, 2.2],
+    [0.0, 2.2],
+];
+/// Facets around it, and how much narrower than long it is.
+const AROUND: usize = 48;
+const NARROWER: f64 = 0.7;
+
+/// The tablet as an ASCII STL file in mm.
+fn debossed() -> String {
+    let corner = |[r, z]: [f64; 2], k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * (k % AROUND) as f64 / AROUND as f64).sin_cos();
+        format!("vertex {:.7} {:.7} {z:.7}\n", r * cos, NARROWER * r * sin)
+    };
+    let mut text = "solid debossed\n".to_owned();
+    let mut facet = |corners: [String; 3]| {
+        for line in ["facet normal 0 0 0\nouter loop\n", &corners.concat(), "endloop\nendfacet\n"] {
+            text += line;
+        }
+    };
+    for (k, pair) in (0..AROUND).flat_map(|k| DEBOSSED.windows(2).map(move |pair| (k, pair))) {
+        let [low, high] = [pair[0], pair[1]];
+        if low[0] > 0.0 {
+            facet([corner(low, k), corner(low, k + 1), corner(high, k)]);
+        }
+        if high[0] > 0.0 {
+            facet([corner(low, k + 1), corner(high, k + 1), corner(high, k)]);
+        }
+    }
+    text + "endsolid debossed\n"
+}
+
+/// A concave solid from a file, all the way: clump, panels, run, coat.
+#[test]
+fn a_debossed_tablet_from_a_mesh_is_coated() {
+    let folder = tempfile::tempdir().expect("can be made");
+    fs::write(folder.path().join("debossed.stl"), debossed()).expect("can be written");
+    let scene = folder.path().join("debossed.ron");
+    let text = r#"(
+        format: 1,
+        title: "debossed tablets",
+        materials: {"tablet": (shear_modulus: MPa(1), poisson: 0.25)},
+        pairs: [(between: ("tablet", "tablet"), friction: 0.5, restitution: 0.5)],
+        shapes: {"debossed": (recipe: Mesh(file: "debossed.stl", unit: Mm(1)), spheres: 60, panels: 1500)},
+        batches: [(shape: "debossed", material: "tablet", tablet_mass: Mg(300), count: 90)],
+        drum: (diameter: Mm(100), width: Mm(60), speed: Rpm(30), material: "tablet"),
+        time: (settle: For(S(1)), duration: S(2), frame_interval: Ms(20)),
+        spray: (spanwise: Mm(50), streamwise: Mm(40), pixels: (300, 240), deposit: (rate: GPerMin(7.5), solids: 0.2)),
+    )"#;
+    fs::write(&scene, text).expect("can be written");
+
+    let shape = &Scene::load(&scene, &[]).expect("is valid").shapes[0];
+    let tablet = TabletShape::build(shape, true).expect("is one solid");
+    assert_eq!(tablet.repairs, []);
+    // Truncated cones, squeezed; the facets' corners are on the solid.
+    let cone = |p: &[[f64; 2]]| (p[1][1] - p[0][1]) * (p[0][0].powi(2) + p[0][0] * p[1][0] + p[1][0].powi(2));
+    let angle = std::f64::consts::TAU / AROUND as f64;
+    let volume = NARROWER * AROUND as f64 * angle.sin() / 6.0 * DEBOSSED.windows(2).map(cone).sum::<f64>();
+    assert!((tablet.volume * 1e9 / volume - 1.0).abs() < 1e-6, "{} for {volume}", tablet.volume * 1e9);
+    let panels = tablet.panels.as_ref().expect("is sprayed");
+    let top = panels.vertices.iter().map(|v| v.z).fold(0.0, f64::max);
+    let floor = |k: &usize| panels.normals[*k].z > 0.99 && panels.centroids[*k].z < top - 0.45e-3;
+    let floor: Vec<usize> = (0..panels.len()).filter(floor).collect();
+    let floor_area = floor.iter().map(|&k| panels.areas[k] * 1e6).sum::<f64>();
+    let ring = NARROWER * AROUND as f64 * angle.sin() / 2.0 * (2.9 * 2.9 - 2.1 * 2.1);
+    assert!((floor_area / ring - 1.0).abs() < 0.02, "{floor_area} mm2 of {ring}");
+    let gap = |k: &usize| 1e3 * tablet.clump.distance(&panels.centroids[*k]);
+    let (least, most) = floor.iter().map(gap).fold((f64::MAX, f64::MIN), |(l, m), g| (l.min(g), m.max(g)));
+    assert!(least > -0.02 && most < 0.8, "spheres come to {least} to {most} mm below the ring, none into it");
+    let quality = panels.quality();
+    assert!(panels.len().abs_diff(1500) < 150 && quality.smallest_angle_deg > 15.0, "{quality:?}");
+
+    let out = folder.path().join("out");
+    let record = run_into(&out, &scene, "2", &[]);
+    assert_eq!((&record["status"], &record["derived"]["bodies"]), (&"done".into(), &90.into()));
+    let coated = rows(&out.join("panels.csv"));
+    let mean = |of: &dyn Fn(usize) -> bool| {
+        let of = (0..panels.len()).filter(|&k| of(k));
+        let film =
+            of.map(|k| (coated[k]["average_um"].parse::<f64>().expect("a thickness"), panels.areas[k]));
+        let (sum, area) = film.fold((0.0, 0.0), |(s, a), (film, area)| (s + film * area, a + area));
+        sum / area
+    };
+    let face = mean(&|k| panels.normals[k].z > 0.99 && panels.centroids[k].z > top - 0.05e-3);
+    let floor = mean(&|k| floor.contains(&k));
+    assert!(
+        floor > 0.2 * face && floor < face,
+        "the walls of the ring shade its floor: {floor} um, {face} um"
+    );
+}
+
+/// A leaning drum with conical ends, and a drum from a file: tablets gather at the low end, and none gets out.
+#[test]
+fn drums_lean_and_come_from_meshes() {
+    let pan = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pan.stl").display().to_string();
+    let mesh = format!("drum.wall=Mesh(file: \"{pan}\", unit: Mm(1))");
+    let cones = "drum.wall=Profile([(Mm(-50), Mm(200)), (Mm(-30), Mm(250)), (Mm(50), Mm(250))])";
+    let mean_z = |overrides: &[&str]| {
+        let all = ["spray=None", "batches[0].count=80", "drum.speed=Rpm(22)"].iter().chain(overrides);
+        let all: Vec<String> = all.map(ToString::to_string).collect();
+        let scene = Scene::load(&scene_path("sphere"), &all).expect("is valid");
+        let mut simulation = Simulation::new(&scene).expect("is built");
+        simulation.fill(&mut |_| true).expect("is filled");
+        simulation.run(0, 75, &mut [], &mut |_| true).expect("runs");
+        let states = simulation.states();
+        assert_eq!(states.len(), scene.batches[0].count);
+        states.iter().map(|state| state.position.z).sum::<f64>() / states.len() as f64
+    };
+    let level = mean_z(&["drum.baffles=None", &mesh]);
+    assert!(level.abs() < 4e-3, "{level}");
+    let leaning = mean_z(&["drum.axis_tilt=Deg(15)", cones]);
+    assert!(leaning < -10e-3, "{leaning}");
 }

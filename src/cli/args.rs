@@ -182,6 +182,9 @@ pub(super) struct CompareArgs {
     /// Shape of the scanned tablets [default: the first of the run]
     #[arg(long, value_name = "NAME", requires = "thz")]
     pub(super) shape: Option<String>,
+    /// Also all numbers of the runs' results as a CSV table, one row for each folder
+    #[arg(long, value_name = "FILE")]
+    pub(super) csv: Option<PathBuf>,
     /// Page to write
     #[arg(long, value_name = "FILE", default_value = "compare.html")]
     pub(super) out: PathBuf,

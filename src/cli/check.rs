@@ -6,26 +6,25 @@ use super::failure::Failure;
 use super::watch::clock;
 use super::{guards, pace, print_line};
 use crate::contact::PairLaw;
-use crate::scene::{Aim, Record, Scene, Settle};
+use crate::scene::{Aim, Record, Scene, Settle, Wall};
 use crate::shapes::TabletShape;
-use crate::stepping::TimeStep;
+use crate::stepping::{Simulation, TimeStep};
 use std::f64::consts::PI;
 
 pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
     let scene = args.scene.read()?.scene()?;
-    let shapes: Vec<TabletShape> = scene
-        .shapes
-        .iter()
-        .map(|shape| TabletShape::build(shape, scene.spray.is_some()))
-        .collect::<Result<_, _>>()?;
-    let step = TimeStep::choose(&scene, &shapes);
+    let simulation = Simulation::new(&scene)?;
+    let (shapes, step) = (simulation.shapes(), simulation.time_step());
     print_line(&scene.title)?;
-    for (name, text) in [parts(&scene, &shapes), left_out(&scene), numbers(&scene, &shapes, &step)].concat() {
+    for (name, text) in [parts(&scene, shapes), left_out(&scene), numbers(&scene, shapes, step)].concat() {
         print_line(&format!("{name:<20}{text}"))?;
     }
-    guards::refuse(&scene, &shapes, &step)?;
-    for warning in guards::warnings(&shapes, &step, step.impact_overlap) {
+    guards::refuse(&scene, shapes, step)?;
+    for warning in guards::warnings(shapes, step, step.impact_overlap) {
         print_line(&format!("{:<20}{warning}", "warning"))?;
+    }
+    for repair in simulation.repairs() {
+        print_line(&format!("{:<20}{repair}", "repaired"))?;
     }
     Ok(())
 }
@@ -49,7 +48,12 @@ fn parts(scene: &Scene, shapes: &[TabletShape]) -> Vec<Line> {
     if let Some(drum) = &scene.drum {
         let baffles = drum.baffles.map_or(String::new(), |b| format!(", {} baffles", b.count));
         let (across, wide, rpm) = (1e3 * drum.diameter, 1e3 * drum.width, drum.speed * 30.0 / PI);
-        lines.push(("drum", format!("{across:.0} mm across, {wide:.0} mm wide, {rpm:.1} rpm{baffles}")));
+        let tilt = match drum.axis_tilt.to_degrees() {
+            0.0 => String::new(),
+            tilt => format!(", front lifted by {tilt:.1} degrees"),
+        };
+        lines
+            .push(("drum", format!("{across:.0} mm across, {wide:.0} mm wide, {rpm:.1} rpm{baffles}{tilt}")));
     }
     if !scene.boundaries.is_empty() {
         lines.push(("boundaries", scene.boundaries.len().to_string()));
@@ -88,7 +92,10 @@ fn left_out(scene: &Scene) -> Vec<Line> {
     let list = [
         (no_spray, "panels, coater, coating statistics: no spray"),
         (scene.drum.is_none(), "drum, filling: no drum"),
-        (scene.drum.as_ref().is_some_and(|d| d.baffles.is_none()), "baffles: none in the drum"),
+        (
+            scene.drum.as_ref().is_some_and(|d| d.baffles.is_none() && !matches!(d.wall, Wall::Mesh { .. })),
+            "baffles: none in the drum",
+        ),
         (spheres_only, "clump fitting: all shapes are spheres"),
         (scene.time.settle == Settle::For(0.0), "settling: none asked for"),
         (!outputs.statistics || scene.drum.is_none(), "bed statistics: switched off, or no drum"),
@@ -128,7 +135,7 @@ fn numbers(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> Vec<Line> 
 fn expected_static_overlap(scene: &Scene, shapes: &[TabletShape]) -> Option<f64> {
     let drum = scene.drum.as_ref()?;
     let solid: f64 = scene.batches.iter().map(|b| b.count as f64 * shapes[b.shape].volume).sum();
-    let fill = solid / PACKING / (PI / 4.0 * drum.diameter * drum.diameter * drum.width);
+    let fill = solid / PACKING / drum.volume();
     let depth = bed_depth(fill.min(1.0), drum.diameter);
     let overlap = |batch: &crate::scene::Batch| {
         let shape = &shapes[batch.shape];

@@ -5,11 +5,16 @@ use super::failure::Failure;
 use super::print_line;
 use crate::models::thz::{SimulatedMap, ThzComparison, ThzMap, ThzScan};
 use crate::models::{Spearman, TabletSurface};
-use crate::report::{ComparedShape, MEASURES, ReportData, ThicknessMap, ThzSide, comparison_page, thz_page};
+use crate::report::{
+    ComparedShape, MEASURES, ReportData, ThicknessMap, ThzSide, comparison_page, results_table, thz_page,
+};
 use std::fs;
 use std::path::Path;
 
 pub(super) fn compare(args: &CompareArgs) -> Result<(), Failure> {
+    if let Some(file) = &args.csv {
+        fs::write(file, results_table(&args.directories)?).map_err(Failure::Output)?;
+    }
     let page = if args.thz.is_empty() { runs(args)? } else { scans(args)? };
     fs::write(&args.out, page).map_err(Failure::Output)?;
     print_line(&args.out.display().to_string())

@@ -52,7 +52,7 @@ pub fn main() -> ExitCode {
 fn drum(args: &args::DrumArgs) -> Result<(), Failure> {
     let scene = args.scene.read()?.scene()?;
     let drum = scene.drum.as_ref().ok_or(Failure::NoDrum)?;
-    crate::shapes::write_stl(&crate::shapes::drum_mesh(drum), &args.out, 1e-3)?;
+    crate::shapes::write_stl(&crate::shapes::drum_surface(drum)?.mesh, &args.out, 1e-3)?;
     print_line(&args.out.display().to_string())
 }
 

@@ -145,6 +145,9 @@ impl Session {
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
         self.record.warnings =
             guards::warnings(simulation.shapes(), step, overlap).iter().map(ToString::to_string).collect();
+        self.record
+            .warnings
+            .extend(simulation.repairs().iter().map(|repair| format!("mesh repaired: {repair}")));
         self.record.state_hash = Some(simulation.state_hash());
         self.record.performance = Performance {
             wall_s: self.watch.wall_s(),

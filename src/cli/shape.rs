@@ -4,10 +4,10 @@ use super::args::ShapeArgs;
 use super::failure::Failure;
 use super::print_line;
 use crate::report::{ThicknessMap, shape_page, vtp};
-use crate::scene::Shape;
+use crate::scene::{Shape, SphereBudget};
 use crate::shapes::{
-    Clump, PanelQuality, Panels, Part, Placement, Region, ShapeError, ShapeMeasures, Solid, SphereBudget,
-    SurfaceMesh, TabletShape, write_stl,
+    Clump, PanelQuality, Panels, Part, Region, ShapeError, ShapeMeasures, Solid, SurfaceMesh, TabletShape,
+    write_stl,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -25,11 +25,17 @@ struct Sheet {
     shape: String,
     #[serde(flatten)]
     measures: Option<ShapeMeasures>,
+    /// The row of Table 4, if it is one of the paper's tablets.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table_4: Option<ShapeMeasures>,
+    /// What was put right in the file of the mesh.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    repairs: Vec<String>,
     /// Principal moments per mass of the true solid.
     inertia_per_mass_mm2: [f64; 3],
     #[serde(flatten)]
     panels: Option<PanelQuality>,
-    clump: ClumpError,
+    clump: Option<ClumpError>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     clumps: Vec<ClumpError>,
 }
@@ -88,19 +94,26 @@ pub(super) fn shape(args: &ShapeArgs) -> Result<(), Failure> {
 
 fn sheet(shape: &Shape, tablet: &TabletShape, table: bool) -> Result<Sheet, Failure> {
     let solid = Solid::new(&shape.recipe)?;
-    let error = |count: usize| {
+    let error = |budget: SphereBudget| {
         let start = Instant::now();
-        let clump = solid.clump(SphereBudget::Count(count), Placement::Inscribed);
-        clump_error(&clump, tablet, start.elapsed().as_secs_f64())
+        let clump = solid.clump(budget, shape.placement);
+        clump.map(|clump| clump_error(&clump, tablet, start.elapsed().as_secs_f64()))
     };
-    let counts = if table { &COUNTS[..] } else { &[] };
+    let measures = tablet.measures();
+    let own = error(shape.spheres);
     Ok(Sheet {
         shape: shape.name.clone(),
-        measures: tablet.measures(),
+        measures,
+        table_4: measures.and_then(|m| m.in_table_4()),
+        repairs: tablet.repairs.iter().map(ToString::to_string).collect(),
         inertia_per_mass_mm2: (tablet.inertia_per_mass * 1e6).into(),
         panels: tablet.panels.as_ref().map(Panels::quality),
-        clump: error(shape.spheres),
-        clumps: counts.iter().map(|&count| error(count)).collect(),
+        clump: own,
+        clumps: if table {
+            COUNTS.into_iter().filter_map(|n| error(SphereBudget::Count(n))).collect()
+        } else {
+            Vec::new()
+        },
     })
 }
 
@@ -132,15 +145,28 @@ impl Sheet {
         let mut rows: Vec<(String, String)> = Vec::new();
         let mut row = |name: &str, value: String| rows.push((name.to_owned(), value));
         if let Some(m) = &self.measures {
+            // Beside each figure what the paper prints, if it is a tablet of the paper.
+            let printed = |of: fn(&ShapeMeasures) -> f64| {
+                self.table_4.as_ref().map_or(String::new(), |row| format!(" (Table 4: {})", of(row)))
+            };
+            let extents = |m: &ShapeMeasures| {
+                format!("{:.3}, {:.3}, {:.3} mm", m.length_mm, m.width_mm, m.thickness_mm)
+            };
+            row("length, width, thickness", extents(m));
+            row("surface", format!("{:.1} mm2{}", m.area_mm2, printed(|m| m.area_mm2)));
+            row("volume", format!("{:.1} mm3{}", m.volume_mm3, printed(|m| m.volume_mm3)));
+            row("sphericity", format!("{:.4}{}", m.sphericity, printed(|m| m.sphericity)));
             row(
-                "length, width, thickness",
-                format!("{:.3}, {:.3}, {:.3} mm", m.length_mm, m.width_mm, m.thickness_mm),
+                "aspect ratio (L + W)/(2 T)",
+                format!("{:.4}{}", m.aspect_ratio, printed(|m| m.aspect_ratio)),
             );
-            row("surface", format!("{:.1} mm2", m.area_mm2));
-            row("volume", format!("{:.1} mm3", m.volume_mm3));
-            row("sphericity", format!("{:.4}", m.sphericity));
-            row("aspect ratio (L + W)/(2 T)", format!("{:.4}", m.aspect_ratio));
-            row("band over face area", format!("{:.4}", m.band_to_face));
+            row("band over face area", format!("{:.4}{}", m.band_to_face, printed(|m| m.band_to_face)));
+            for note in self.table_4.iter().flat_map(ShapeMeasures::against_table_4) {
+                row("note", note);
+            }
+        }
+        for repair in &self.repairs {
+            row("repaired", repair.clone());
         }
         let [x, y, z] = self.inertia_per_mass_mm2;
         row("moments of inertia per mass", format!("{x:.3}, {y:.3}, {z:.3} mm2"));
@@ -151,7 +177,7 @@ impl Sheet {
                 format!("{}, smallest angle {angle:.0} degrees, areas within {ratio:.2}", p.panels),
             );
         }
-        for clump in std::iter::once(&self.clump).chain(&self.clumps) {
+        for clump in self.clump.iter().chain(&self.clumps) {
             row(&format!("clump of {}", clump.spheres), clump.in_words());
         }
         rows

@@ -56,11 +56,7 @@ impl ReportData {
     /// # Errors
     /// [`ReportError`] names the file that is missing or broken.
     pub fn read(dir: &Path) -> Result<Self, ReportError> {
-        let path = dir.join("run.json");
-        let text = read(&path)?
-            .ok_or_else(|| ReportError::Read { path: path.clone(), source: ErrorKind::NotFound.into() })?;
-        let record: Value =
-            serde_json::from_slice(&text).map_err(|source| ReportError::Record { path, source })?;
+        let record = record(dir)?;
         let text = |name: &str| Ok(read(&dir.join(name))?.map(|t| String::from_utf8_lossy(&t).into_owned()));
 
         let results = &record["results"];
@@ -89,6 +85,14 @@ impl ReportData {
             scene_text: text("scene.ron")?.unwrap_or_default(),
         })
     }
+}
+
+/// The record of a run folder as it is written.
+pub(super) fn record(dir: &Path) -> Result<Value, ReportError> {
+    let path = dir.join("run.json");
+    let text = read(&path)?
+        .ok_or_else(|| ReportError::Read { path: path.clone(), source: ErrorKind::NotFound.into() })?;
+    serde_json::from_slice(&text).map_err(|source| ReportError::Record { path, source })
 }
 
 fn shapes(dir: &Path, results: &Value) -> Result<Vec<ShapeCoating>, ReportError> {

@@ -14,6 +14,7 @@ mod map;
 mod number;
 mod page;
 mod record;
+mod results_table;
 mod run_dir;
 mod shape;
 mod tables;
@@ -30,6 +31,7 @@ pub use record::{
     Bed, Coating, Derived, Estimate, Exponent, Guards, Machine, Passes, Performance, RECORD_FORMAT, Results,
     RunRecord, SprayAim, Status,
 };
+pub use results_table::results_table;
 pub use run_dir::{RunDir, RunDirError, SeriesFile};
 pub use shape::shape_page;
 pub use tables::{PanelRow, TabletRow};

@@ -225,6 +225,9 @@ pub enum FaultKind {
     /// A file that a scene names is not there.
     #[error("there is no file {}", .0.display())]
     NoFile(PathBuf),
+    /// A bound on the error of a clump that is not fitted.
+    #[error("a Sphere is one sphere and a Clump as it is given: leave `spheres` out")]
+    NotFitted,
     /// A recipe without a surface in a sprayed scene.
     #[error("a Clump has no surface to coat; give a solid's dimensions or leave out the spray")]
     NoSurface,

@@ -5,6 +5,7 @@
 //! `docs/scene.md` describes every key. This room builds nothing: no spheres, no panels, no meshes.
 
 mod check;
+mod clump;
 mod decode;
 mod fault;
 mod model;
@@ -17,6 +18,7 @@ mod source;
 mod spec;
 mod text;
 
+pub use clump::{Placement, SphereBudget};
 pub use fault::{Fault, FaultKind, Place, SceneFaults};
 pub use model::*;
 pub use outline::Syntax;

@@ -2,6 +2,7 @@
 //! its value was refused, which has been told already). What is needed, allowed and assumed is decided in `check`.
 //! `docs/scene.md` describes every key.
 
+use super::clump::{Placement, SpheresSpec};
 use crate::units::{
     Acceleration, Angle, AngularSpeed, Density, InertiaPerMass, Length, Mass, MassRate, Modulus, Number,
     Speed, TimeSpan, Triple, Whole,
@@ -50,7 +51,8 @@ pub(super) struct PairSpec {
 #[serde(deny_unknown_fields, rename = "Shape")]
 pub(super) struct ShapeSpec {
     pub(super) recipe: Option<RecipeSpec>,
-    pub(super) spheres: Option<Whole>,
+    pub(super) spheres: Option<SpheresSpec>,
+    pub(super) placement: Option<Placement>,
     pub(super) panels: Option<Whole>,
 }
 
@@ -147,8 +149,18 @@ pub(super) struct DrumSpec {
     pub(super) width: Option<Length>,
     pub(super) speed: Option<AngularSpeed>,
     pub(super) material: Option<String>,
+    pub(super) wall: Option<WallSpec>,
     pub(super) facets: Option<Whole>,
     pub(super) baffles: Option<BafflesSpec>,
+    pub(super) axis_tilt: Option<Angle>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Wall")]
+pub(super) enum WallSpec {
+    Cylinder,
+    Profile(Vec<(Length, Length)>),
+    Mesh { file: Option<String>, unit: Option<Length> },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]

@@ -47,6 +47,16 @@ pub enum ShapeError {
         /// What is wrong, as [`crate::scene::Recipe::fault`] says it.
         fault: String,
     },
+    /// A clump within the error asked for has too many spheres.
+    #[error(
+        "shape `{name}`: more than 1000 spheres are needed to come everywhere within {error_mm} mm; allow more"
+    )]
+    TooNear {
+        /// Name of the shape.
+        name: String,
+        /// The error asked for, mm.
+        error_mm: f64,
+    },
     /// Panels were asked of a clump recipe.
     #[error(
         "shape `{name}` is given sphere by sphere and has no surface to spray: \
@@ -114,7 +124,7 @@ pub enum MeshFault {
     /// The size is not that of what it should be.
     #[error(
         "it would be {extent} m across, expected {least} to {most} m: \
-         is the unit right? (scale: 0.001 for a file in mm, 0.0254 for inches)"
+         is the unit right? (Mm(1) for a file in mm, Inch(1) for one in inches)"
     )]
     Size {
         /// Largest extent, m.
@@ -123,6 +133,18 @@ pub enum MeshFault {
         least: f64,
         /// Largest that is plausible, m.
         most: f64,
+    },
+    /// A drum's mesh that is not what the scene says.
+    #[error(
+        "the mesh is {across_mm:.2} mm across its axis z and reaches to +-{:.2} mm along it, other than the drum's \
+         `diameter` and `width`: give those of the mesh, or is the unit wrong?",
+        wide_mm / 2.0
+    )]
+    NotTheDrum {
+        /// Twice its largest distance from the axis, mm.
+        across_mm: f64,
+        /// Twice its largest distance from the middle along the axis, mm.
+        wide_mm: f64,
     },
     /// Corners on a line, in a way that cannot be put right.
     #[error("the corners of facet {facet} are on a line")]

@@ -1,7 +1,7 @@
 //! Solids given by a mesh file, in body axes.
 
 use super::remesh::Patchwork;
-use super::{ClosedMesh, MassProperties, Panels, Region};
+use super::{ClosedMesh, MassProperties, Panels, Region, Repair};
 use nalgebra::Vector3;
 
 /// Patches whose mean |n·z| is above the first are caps, below the second bands; in between, or on a solid without
@@ -16,6 +16,8 @@ pub(super) struct ImportedSolid {
     uprightness: Vec<f64>,
     /// Volume, and inertia about the axes the surface is in.
     pub(super) mass: MassProperties,
+    /// What had to be put right in the file.
+    pub(super) repairs: Vec<Repair>,
 }
 
 impl ImportedSolid {
@@ -36,7 +38,7 @@ impl ImportedSolid {
             areas[patch as usize] += normal.norm();
         }
         let uprightness = upright.iter().zip(&areas).map(|(u, a)| u / a).collect();
-        Self { surface, uprightness, mass }
+        Self { surface, uprightness, mass, repairs: mesh.repairs.clone() }
     }
 
     /// Area of the facets, m².

@@ -28,10 +28,9 @@ mod tablet;
 mod tree;
 
 pub use clump::{Clump, Deviation, Sphere};
-pub use clump_fit::{Placement, SphereBudget};
-pub use drum::{PATCH_ANGLE, default_pan, drum_mesh};
+pub use drum::{ClearRoom, PATCH_ANGLE, default_pan, drum_mesh, drum_surface};
 pub use error::{MeshFault, ShapeError};
-pub use import::{ClosedMesh, Repair, read_closed_mesh, read_surface};
+pub use import::{ClosedMesh, ImportedSurface, Repair, read_closed_mesh, read_surface};
 pub use mass::MassProperties;
 pub use measures::{PanelQuality, ShapeMeasures};
 pub use mesh::{Part, SurfaceMesh};

@@ -2,13 +2,13 @@
 
 use super::cap::CapProfile;
 use super::clump_file::read_clump;
-use super::clump_fit::{Placement, SphereBudget, fit_clump};
+use super::clump_fit::fit_clump;
 use super::imported::ImportedSolid;
 use super::outline::OutlineCurve;
 use super::pressed::PressedSolid;
 use super::sphere::sphere_panels;
-use super::{Clump, Panels, ShapeError, Sphere, read_closed_mesh};
-use crate::scene::Recipe;
+use super::{Clump, Panels, Repair, ShapeError, Sphere, read_closed_mesh};
+use crate::scene::{Placement, Recipe, SphereBudget};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -100,14 +100,21 @@ impl Solid {
         }
     }
 
-    /// A clump for contact; a sphere is always one sphere, and glued spheres are taken as they are. Clumps of pressed tablets are symmetric about the middle
-    /// plane.
-    pub fn clump(&self, budget: SphereBudget, placement: Placement) -> Clump {
+    /// What had to be put right in the file of a mesh.
+    pub fn repairs(&self) -> &[Repair] {
+        if let Kind::Imported(solid) = &self.0 { &solid.repairs } else { &[] }
+    }
+
+    /// A clump for contact; a sphere is always one sphere, and glued spheres are taken as they are. Clumps of pressed
+    /// tablets are symmetric about the middle plane. `None` when an error bound takes more than 1000 spheres.
+    pub fn clump(&self, budget: SphereBudget, placement: Placement) -> Option<Clump> {
         match &self.0 {
-            &Kind::Sphere(radius) => Clump { spheres: vec![Sphere { center: Vector3::zeros(), radius }] },
+            &Kind::Sphere(radius) => {
+                Some(Clump { spheres: vec![Sphere { center: Vector3::zeros(), radius }] })
+            }
             Kind::Pressed(solid) => fit_clump(&solid.rings(FIT_PANELS[0]), budget, placement, true),
             Kind::Imported(solid) => fit_clump(&solid.panels(FIT_PANELS[1]), budget, placement, false),
-            Kind::Glued { clump, .. } => clump.clone(),
+            Kind::Glued { clump, .. } => Some(clump.clone()),
         }
     }
 

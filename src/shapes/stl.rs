@@ -40,7 +40,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let path = folder.path().join("pan.stl");
         write_stl(&mesh, &path, 0.001).expect("written");
-        let back = read_surface(&path, 0.001).expect("read");
+        let back = read_surface(&path, 0.001).expect("read").mesh;
         assert_eq!(back.vertices.len(), mesh.vertices.len());
         for (a, b) in back.triangles.iter().zip(&mesh.triangles) {
             for (&u, &v) in a.iter().zip(b) {
@@ -56,7 +56,8 @@ mod tests {
         let path = folder.path().join("pan.stl");
         write_stl(&drum_mesh(&default_pan()), &path, 0.001).expect("written");
         let stored = read_surface(&Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/pan.stl"), 0.001);
-        let (fresh, stored) = (read_surface(&path, 0.001).expect("read"), stored.expect("meshes/pan.stl"));
+        let fresh = read_surface(&path, 0.001).expect("read").mesh;
+        let stored = stored.expect("meshes/pan.stl").mesh;
         assert_eq!(fresh.triangles, stored.triangles);
         for (a, b) in fresh.vertices.iter().zip(&stored.vertices) {
             assert!((a - b).norm() < 1e-7, "{a} {b}");

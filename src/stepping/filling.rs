@@ -1,6 +1,6 @@
 //! Where tablets can be put into the drum without touching anything.
 
-use crate::scene::Drum;
+use crate::shapes::ClearRoom;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt};
 
@@ -9,15 +9,16 @@ const CLEARANCE: f64 = 0.01;
 
 /// Lattice sites of a drum for bounding spheres of `radius` m, lowest first: a cubic lattice inside the cylinder that
 /// the baffles leave free, every second column shifted along the axis, so that layers mix.
-pub(super) fn sites(drum: &Drum, radius: f64) -> Vec<Vector3<f64>> {
+pub(super) fn sites(room: &ClearRoom, radius: f64) -> Vec<Vector3<f64>> {
     let cell = 2.0 * radius * (1.0 + CLEARANCE);
-    let inner = 0.5 * drum.diameter - drum.baffles.map_or(0.0, |b| b.height) - 0.5 * cell;
-    let layers = (drum.width / cell).floor() as i64;
+    let inner = room.radius - 0.5 * cell;
+    let [first, last] = room.ends;
+    let layers = ((last - first) / cell).floor() as i64;
     if inner <= 0.0 || layers < 1 {
         return Vec::new();
     }
     // What the layers leave free along the axis goes to shifting every second column.
-    let slack = drum.width - layers as f64 * cell;
+    let slack = last - first - layers as f64 * cell;
     let rows = (inner / cell).floor() as i64;
     let mut sites = Vec::new();
     for row in -rows..=rows {
@@ -26,7 +27,7 @@ pub(super) fn sites(drum: &Drum, radius: f64) -> Vec<Vector3<f64>> {
         for column in -columns..=columns {
             let shift = if (row + column).rem_euclid(2) == 0 { 0.0 } else { slack };
             for layer in 0..layers {
-                let z = (layer as f64 + 0.5) * cell - 0.5 * drum.width + shift;
+                let z = (layer as f64 + 0.5) * cell + first + shift;
                 sites.push(Vector3::new(column as f64 * cell, y, z));
             }
         }

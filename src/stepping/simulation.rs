@@ -7,7 +7,7 @@ use super::stopwatch::{Phase, Stopwatch};
 use super::time_step::TimeStep;
 use crate::contact::{ContactField, Tally, Wrench};
 use crate::scene::{Boundary, BoundarySurface, Scene};
-use crate::shapes::{SurfaceMesh, TabletShape, drum_mesh, read_surface};
+use crate::shapes::{ImportedSurface, SurfaceMesh, TabletShape, drum_surface, read_surface};
 use crate::world::{Motion, World};
 use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
@@ -21,6 +21,8 @@ pub struct Simulation {
     pub(super) scene: Scene,
     shapes: Vec<TabletShape>,
     drum: Option<SurfaceMesh>,
+    /// What had to be put right in mesh files.
+    repairs: Vec<String>,
     time_step: TimeStep,
     step: u64,
     world: World,
@@ -54,10 +56,16 @@ impl Simulation {
             .iter()
             .map(|shape| TabletShape::build(shape, scene.spray.is_some()))
             .collect::<Result<Vec<_>, _>>()?;
+        let drum = scene.drum.as_ref().map(drum_surface).transpose()?;
+        let of_shape = |s: &TabletShape| {
+            s.repairs.iter().map(|r| format!("shape `{}`: {r}", s.name)).collect::<Vec<_>>()
+        };
+        let of_drum = drum.iter().flat_map(|surface| surface.repairs.iter().map(|r| format!("drum: {r}")));
         let mut simulation = Self {
             time_step: TimeStep::choose(scene, &shapes),
             field: ContactField::new(scene, &shapes),
-            drum: scene.drum.as_ref().map(drum_mesh),
+            repairs: shapes.iter().flat_map(of_shape).chain(of_drum).collect(),
+            drum: drum.map(|surface| surface.mesh),
             scene: scene.clone(),
             shapes,
             step: 0,
@@ -115,7 +123,8 @@ impl Simulation {
                     }
                 }
                 BoundarySurface::Mesh { path, scale } => {
-                    let mesh = read_surface(path, *scale)?;
+                    let ImportedSurface { mesh, repairs } = read_surface(path, *scale)?;
+                    self.repairs.extend(repairs.iter().map(|repair| format!("{}: {repair}", path.display())));
                     let index = self.world.add_surface(&mesh);
                     self.field.add_mesh(&mesh, index, boundary.material, false);
                     self.drives.push(drive);
@@ -231,7 +240,7 @@ impl Simulation {
             }
             if let Some(drum) = &self.scene.drum {
                 let p = motion.position;
-                if p.xy().norm() > 0.5 * drum.diameter || p.z.abs() > 0.5 * drum.width {
+                if p.xy().norm() > drum.radius_at(p.z) || p.z.abs() > 0.5 * drum.width {
                     return Err(SimulationError::Lost { body, time: self.clock() });
                 }
             }
@@ -285,6 +294,11 @@ impl Simulation {
     /// The drum's mesh in its own axes.
     pub fn drum(&self) -> Option<&SurfaceMesh> {
         self.drum.as_ref()
+    }
+
+    /// What had to be put right in mesh files.
+    pub fn repairs(&self) -> &[String] {
+        &self.repairs
     }
 
     /// The time step and its figures.

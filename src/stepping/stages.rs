@@ -7,6 +7,7 @@ use super::settling::SettlingWatch;
 use super::simulation::Simulation;
 use super::stopwatch::Phase;
 use crate::scene::Settle;
+use crate::shapes::ClearRoom;
 use nalgebra::Vector3;
 
 /// What a run is doing.
@@ -49,14 +50,15 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Full`] when tablets no longer find room, or anything that stops a run.
     pub fn fill(&mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<(), SimulationError> {
-        let Some(drum) = self.scene.drum.clone() else { return Ok(()) };
+        let Some((drum, surface)) = self.scene.drum.as_ref().zip(self.drum()) else { return Ok(()) };
+        let room = ClearRoom::of(drum, surface);
         let mut waiting = self.waiting();
         let wanted = waiting.len();
         if wanted == 0 {
             return Ok(());
         }
         let radius = self.largest_bounding_radius();
-        let sites = sites(&drum, radius);
+        let sites = sites(&room, radius);
         let mut idle = 0;
         while !waiting.is_empty() {
             let before = waiting.len();

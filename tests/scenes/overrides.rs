@@ -1,6 +1,6 @@
 //! Values set on the command line.
 
-use pancoat::scene::{Scene, SceneText};
+use pancoat::scene::{Scene, SceneText, SphereBudget};
 
 fn round(overrides: &[&str]) -> SceneText {
     let overrides: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
@@ -22,7 +22,7 @@ fn values_are_replaced_added_and_taken_out() {
     let scene = text.scene().expect("is whole");
     let drum = scene.drum.expect("has a drum");
     assert_eq!((drum.speed, drum.facets, drum.baffles), (3.0, 40, None));
-    assert_eq!((scene.batches[0].count, scene.shapes[0].spheres), (100, 20));
+    assert_eq!((scene.batches[0].count, scene.shapes[0].spheres), (100, SphereBudget::Count(20)));
     assert_eq!(scene.contact.damping_mass, pancoat::scene::DampingMass::Contact);
     assert!(scene.spray.is_none());
 }

@@ -2,8 +2,8 @@
 
 use approx::assert_relative_eq;
 use pancoat::scene::{
-    Aim, BoundarySurface, Cap, Cycle, DampingMass, Deposit, Flux, Footprint, Outline, Pattern, Rays, Recipe,
-    Record, Scene, Settle, StepChoice, TangentialLaw,
+    Aim, BoundarySurface, Cap, Cycle, DampingMass, Deposit, Flux, Footprint, Outline, Pattern, Placement,
+    Rays, Recipe, Record, Scene, Settle, SphereBudget, StepChoice, TangentialLaw, Wall,
 };
 use std::f64::consts::PI;
 
@@ -55,7 +55,7 @@ fn every_key_has_its_effect() {
     let Recipe::Clump { path, inertia_per_mass } = &scene.shapes[3].recipe else { panic!("is a clump") };
     assert!(path.ends_with("good/clump.txt"));
     assert_relative_eq!(inertia_per_mass[2], 2.76e-5, max_relative = 1e-15);
-    assert_eq!((scene.shapes[0].spheres, scene.shapes[1].spheres, scene.shapes[3].spheres), (1, 50, 0));
+    assert_eq!([0, 1, 3].map(|k| scene.shapes[k].spheres), [1, 50, 0].map(SphereBudget::Count));
     assert_eq!((scene.batches[0].count, scene.batches[1].count, scene.batches[1].shape), (100, 100, 2));
     assert_eq!(scene.drum.as_ref().map(|d| d.speed), Some(-2.3));
     let turned = scene.bodies[0].orientation;
@@ -118,7 +118,39 @@ fn every_solid_can_be_written() {
     let mesh = scene.shapes.last().expect("is in the file");
     let Recipe::Mesh { path, scale } = &mesh.recipe else { panic!("is a mesh") };
     assert!(path.ends_with("good/box.stl"));
-    assert_eq!((*scale, mesh.spheres), (1e-3, 50));
+    assert_eq!((*scale, mesh.spheres), (1e-3, SphereBudget::Count(50)));
+}
+
+fn round_with(overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
+    Scene::load(&super::folder("scenes/round.ron"), &overrides).expect("loads")
+}
+
+#[test]
+fn clumps_by_count_or_error_inside_or_balanced() {
+    let clump = |set: &str| round_with(&[set]).shapes[0].spheres;
+    assert_eq!(clump("shapes.round.spheres=20"), SphereBudget::Count(20));
+    assert_eq!(clump("shapes.round.spheres=Count(20)"), SphereBudget::Count(20));
+    assert_eq!(clump("shapes.round.spheres= Error( Mm(0.125) )"), SphereBudget::Error(0.125e-3));
+    assert_eq!(round_with(&[]).shapes[0].placement, Placement::Inscribed);
+    assert_eq!(round_with(&["shapes.round.placement=Balanced"]).shapes[0].placement, Placement::Balanced);
+}
+
+/// Lifting the front by 30 degrees turns gravity, seen from the drum, towards its back.
+#[test]
+fn a_drum_can_lean_and_have_any_wall() {
+    let tilted = round_with(&["drum.axis_tilt=Deg(30)"]);
+    let (down, back) = (9.81 * 0.75_f64.sqrt(), 9.81 * 0.5);
+    assert_relative_eq!(tilted.gravity, nalgebra::Vector3::new(0.0, -down, -back), max_relative = 1e-12);
+    let wall = |set: &str| round_with(&[set, "drum.baffles=None"]).drum.expect("has a drum").wall;
+    assert_eq!(wall("drum.wall=Cylinder"), Wall::Cylinder);
+    let cone = "drum.wall=Profile([(Mm(-50), Mm(200)), (Mm(0), Mm(250)), (Mm(50), Mm(250))])";
+    assert_eq!(wall(cone), Wall::Profile(vec![[-0.05, 0.2], [0.0, 0.25], [0.05, 0.25]]));
+    let Wall::Mesh { path, scale } = wall("drum.wall=Mesh(file: \"../meshes/pan.stl\", unit: Mm(1))") else {
+        panic!("is a mesh")
+    };
+    assert!(path.ends_with("../meshes/pan.stl"));
+    assert_eq!(scale, 1e-3);
 }
 
 #[test]

@@ -22,6 +22,7 @@ pub(crate) fn solid(name: &str, vertices: Vec<Vector3<f64>>, triangles: Vec<[u32
         area: areas.iter().sum(),
         inertia_per_mass: Vector3::repeat(0.4 * radius * radius),
         clump: Clump { spheres: vec![Sphere { center: Vector3::zeros(), radius }] },
+        repairs: Vec::new(),
         panels: Some(Panels {
             regions: vec![Region::Cap; triangles.len()],
             normals: triangles.iter().map(|t| doubled(t).normalize()).collect(),

@@ -250,6 +250,7 @@ pub(in crate::observers) mod tests {
             area: 6.0 * side * side,
             inertia_per_mass: Vector3::repeat(side * side / 6.0),
             clump: Clump { spheres: vec![Sphere { center: Vector3::zeros(), radius: side / 2.0 }] },
+            repairs: Vec::new(),
             panels: Some(Panels {
                 regions: vec![Region::Cap; 12],
                 areas: triangles.iter().map(|t| doubled(t).norm() / 2.0).collect(),

@@ -8,7 +8,6 @@ use super::pattern::LONGEST_PHASE;
 use super::size::volume_and_extent;
 use super::{Allowed, Checker};
 use crate::units::{Length, TimeSpan};
-use std::f64::consts::PI;
 
 /// Largest solid volume over the drum's. Spheres poured and shaken pack to 0.64; these have to move.
 const FULLEST: f64 = 0.6;
@@ -56,7 +55,7 @@ fn tablets_inside(c: &mut Checker<'_>, scene: &Scene, drum: &Drum) {
         }
         solid += batch.count as f64 * volume;
     }
-    let fraction = solid / (PI / 4.0 * drum.diameter * drum.diameter * drum.width);
+    let fraction = solid / drum.volume();
     if fraction > FULLEST {
         let overfull = FaultKind::Overfull { fraction, limit: FULLEST };
         c.fault(&KeyPath::default().field("batches"), overfull);

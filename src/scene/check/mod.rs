@@ -24,7 +24,7 @@ use super::path::KeyPath;
 use super::spec::SceneSpec;
 use allowed::Allowed;
 use checker::Checker;
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use std::path::Path;
 
 /// The format that this version of the program reads.
@@ -56,6 +56,10 @@ pub(super) fn check(
     let pairs = materials::pairs(c, spec.pairs.unwrap_or_default(), &materials);
     let shapes = shapes::shapes(c, spec.shapes);
     let drum = spec.drum.map(|drum| drum::drum(c, drum));
+    // The drum's axes are those of the scene: its tilt turns gravity.
+    let tilt = drum.as_ref().map_or(0.0, |drum| drum.axis_tilt);
+    let gravity =
+        if tilt == 0.0 { gravity } else { Rotation3::from_axis_angle(&Vector3::x_axis(), tilt) * gravity };
     let batches = moving::batches(c, spec.batches.unwrap_or_default());
     let bodies = moving::bodies(c, spec.bodies.unwrap_or_default());
     let boundaries = boundaries::boundaries(c, spec.boundaries.unwrap_or_default());

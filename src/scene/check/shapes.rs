@@ -1,11 +1,14 @@
 //! Tablet shapes.
 
+use super::super::clump::{SphereBudget, SpheresSpec};
+use super::super::fault::FaultKind;
 use super::super::model::Shape;
 use super::super::path::KeyPath;
 use super::super::recipe::Recipe;
 use super::super::spec::{Named, ShapeSpec};
 use super::recipe::recipe;
 use super::{Allowed, Checker};
+use crate::units::Length;
 
 /// Spheres a clump has unless the scene says otherwise.
 const SPHERES: usize = 50;
@@ -32,9 +35,30 @@ fn shape(c: &mut Checker<'_>, at: &KeyPath, name: String, spec: ShapeSpec) -> Sh
     };
     let panels = Allowed::from(20.0).to(1e6);
     Shape {
-        spheres: c.number_or(&at.field("spheres"), spec.spheres, default as f64, spheres) as usize,
+        spheres: self::spheres(c, &at.field("spheres"), spec.spheres, default, spheres),
+        placement: spec.placement.unwrap_or_default(),
         panels: c.number_or(&at.field("panels"), spec.panels, PANELS as f64, panels) as usize,
         recipe,
         name,
+    }
+}
+
+/// How many spheres; a bound of the error is for solids that are fitted.
+fn spheres(
+    c: &mut Checker<'_>,
+    at: &KeyPath,
+    spec: Option<SpheresSpec>,
+    default: usize,
+    allowed: Allowed,
+) -> SphereBudget {
+    match spec {
+        None => SphereBudget::Count(default),
+        Some(SpheresSpec::Count(count)) => SphereBudget::Count(c.count(at, Some(count), allowed)),
+        Some(SpheresSpec::Error(error)) => {
+            if default != SPHERES {
+                c.fault(at, FaultKind::NotFitted);
+            }
+            SphereBudget::Error(c.number::<Length>(at, Some(error), Allowed::from(1e-6).to(1.0)))
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Meshes that bound one solid.
 
 use super::crossing::first_crossing;
-use super::read_welded;
 use super::weld::Welded;
+use super::{Repair, read_welded};
 use crate::shapes::{MassProperties, MeshFault, ShapeError};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -25,38 +25,6 @@ pub struct ClosedMesh {
     pub repairs: Vec<Repair>,
 }
 
-/// A fault of a mesh that was put right. Facets are counted from 1 in the order of the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Repair {
-    /// Facets with two equal corners.
-    #[error("dropped {count} facets without area, the first is facet {first}")]
-    Dropped {
-        /// How many.
-        count: usize,
-        /// The first.
-        first: usize,
-    },
-    /// Facets whose corners are on a line; the neighbour at the longest edge was split instead.
-    #[error("replaced {count} facets whose corners are on a line, the first is facet {first}")]
-    Straight {
-        /// How many.
-        count: usize,
-        /// The first.
-        first: usize,
-    },
-    /// Facets wound against the others.
-    #[error("turned {count} facets that were wound against the others, the first is facet {first}")]
-    Turned {
-        /// How many.
-        count: usize,
-        /// The first.
-        first: usize,
-    },
-    /// All facets faced inwards.
-    #[error("turned all facets: the surface was inside out")]
-    InsideOut,
-}
-
 /// Reads the surface of a tablet from an STL, OBJ or PLY file whose unit is `scale` metres.
 ///
 /// # Errors
@@ -67,10 +35,7 @@ pub fn read_closed_mesh(path: &Path, scale: f64) -> Result<ClosedMesh, ShapeErro
 }
 
 fn close(mut mesh: Welded) -> Result<ClosedMesh, MeshFault> {
-    let mut repairs = Vec::new();
-    if let Some(&first) = mesh.dropped.first() {
-        repairs.push(Repair::Dropped { count: mesh.dropped.len(), first });
-    }
+    let mut repairs = mesh.repairs();
     let straight = mesh.replace_straight()?;
     if let Some(&first) = straight.first() {
         repairs.push(Repair::Straight { count: straight.len(), first });

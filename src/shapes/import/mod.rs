@@ -7,10 +7,12 @@ mod closed;
 mod crossing;
 mod obj;
 mod ply;
+mod repair;
 mod stl;
 mod weld;
 
-pub use closed::{ClosedMesh, Repair, read_closed_mesh};
+pub use closed::{ClosedMesh, read_closed_mesh};
+pub use repair::Repair;
 
 use super::tree::Bounds;
 use super::{MeshFault, Part, ShapeError, SurfaceMesh};
@@ -78,15 +80,25 @@ fn check(facets: &Facets, scale: f64, [least, most]: [f64; 2]) -> Result<(), Mes
     Ok(())
 }
 
+/// A surface from a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportedSurface {
+    /// The surface, which may be open; every triangle is of [`Part::Wall`].
+    pub mesh: SurfaceMesh,
+    /// What had to be put right; to be shown to whoever gave the file.
+    pub repairs: Vec<Repair>,
+}
+
 /// Reads the surface of a drum or boundary from an STL, OBJ or PLY file whose unit is `scale` metres. It may be open.
-/// Equal vertices are welded, facets without area dropped; every triangle is of [`Part::Wall`]. The facets have to be
-/// wound counter-clockwise seen from the tablets: nothing in a file tells on which side those are.
+/// The facets have to be wound counter-clockwise seen from the tablets: nothing in a file tells on which side those
+/// are.
 ///
 /// # Errors
 /// [`ShapeError::Read`], [`ShapeError::Content`] or [`ShapeError::Mesh`] when the file cannot be read, is damaged, has
 /// an implausible size, or has neighbours wound against each other.
-pub fn read_surface(path: &Path, scale: f64) -> Result<SurfaceMesh, ShapeError> {
+pub fn read_surface(path: &Path, scale: f64) -> Result<ImportedSurface, ShapeError> {
     let mesh = read_welded(path, scale, SURFACE_SIZE)?;
+    let repairs = mesh.repairs();
     let mut directed: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     let mut twice = None;
     let mut count: BTreeMap<(u32, u32), usize> = BTreeMap::new();
@@ -105,7 +117,8 @@ pub fn read_surface(path: &Path, scale: f64) -> Result<SurfaceMesh, ShapeError> 
         return Err(ShapeError::mesh(path, MeshFault::Unlike { facet: mesh.numbers[t] }));
     }
     let parts = vec![Part::Wall; mesh.triangles.len()];
-    Ok(SurfaceMesh { vertices: mesh.vertices, triangles: mesh.triangles, parts })
+    let mesh = SurfaceMesh { vertices: mesh.vertices, triangles: mesh.triangles, parts };
+    Ok(ImportedSurface { mesh, repairs })
 }
 
 /// Three numbers of a line of text.

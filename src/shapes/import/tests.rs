@@ -1,5 +1,5 @@
 use super::{read_closed_mesh, read_surface};
-use crate::shapes::{ClosedMesh, MassProperties, Repair, SurfaceMesh};
+use crate::shapes::{ClosedMesh, ImportedSurface, MassProperties, Repair};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -126,7 +126,7 @@ fn stl(facets: &[Facet]) -> Result<ClosedMesh, String> {
     read("block.stl", &ascii_stl(facets))
 }
 
-fn surface(facets: &[Facet]) -> Result<SurfaceMesh, String> {
+fn surface(facets: &[Facet]) -> Result<ImportedSurface, String> {
     read_as("plate.stl", &ascii_stl(facets), read_surface)
 }
 
@@ -184,7 +184,10 @@ fn vertices_that_differ_by_rounding_are_welded() {
     for (k, p) in facets.iter_mut().flatten().enumerate() {
         p[0] += 1e-6 * (k % 3) as f64;
     }
-    assert_eq!(stl(&facets).expect("closed").vertices.len(), 8);
+    let mesh = stl(&facets).expect("closed");
+    assert_eq!(mesh.vertices.len(), 8);
+    let [Repair::Welded { count, most_um }] = mesh.repairs[..] else { panic!("{:?}", mesh.repairs) };
+    assert!(count > 10 && (1e-3..3e-3).contains(&most_um), "{count} {most_um}");
 }
 
 #[test]
@@ -289,7 +292,7 @@ fn faults_of_the_file_name_a_line_or_count() {
 fn a_drum_may_be_open_but_not_wound_both_ways() {
     let mesh =
         surface(&block().into_iter().map(|f| f.map(|p| p.map(|x| 10.0 * x))).take(4).collect::<Vec<_>>());
-    assert_eq!(mesh.expect("two plates").triangles.len(), 4);
+    assert_eq!(mesh.expect("two plates").mesh.triangles.len(), 4);
     let mut plates: Vec<Facet> = block()[..4].iter().map(|f| f.map(|p| p.map(|x| 10.0 * x))).collect();
     plates[3].swap(0, 1);
     assert!(

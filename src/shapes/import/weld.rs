@@ -1,6 +1,6 @@
 //! Vertices shared between the triangles that meet in them.
 
-use super::Facets;
+use super::{Facets, Repair};
 use crate::shapes::tree::Bounds;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -21,6 +21,8 @@ pub(super) struct Welded {
     pub(super) dropped: Vec<usize>,
     /// Distance below which vertices were joined, m.
     pub(super) tolerance: f64,
+    /// How many corners were moved to a vertex beside them, and the largest distance, m.
+    moved: (usize, f64),
 }
 
 impl Welded {
@@ -33,6 +35,7 @@ impl Welded {
             numbers: Vec::new(),
             dropped: Vec::new(),
             tolerance,
+            moved: (0, 0.0),
         };
         let mut cells: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
         for (corners, &number) in facets.corners.iter().zip(&facets.numbers) {
@@ -48,6 +51,15 @@ impl Welded {
         mesh
     }
 
+    /// What welding has put right.
+    pub(super) fn repairs(&self) -> Vec<Repair> {
+        let (count, most) = self.moved;
+        let welded = (count > 0).then_some(Repair::Welded { count, most_um: 1e6 * most });
+        let first = self.dropped.first();
+        let dropped = first.map(|&first| Repair::Dropped { count: self.dropped.len(), first });
+        welded.into_iter().chain(dropped).collect()
+    }
+
     /// The vertex at `p`: a known one nearby, or a new one. Looked up in cells four tolerances wide, and in the next
     /// cell where `p` is within a tolerance of it.
     fn vertex(&mut self, cells: &mut BTreeMap<[i64; 3], Vec<u32>>, p: Vector3<f64>) -> u32 {
@@ -59,8 +71,12 @@ impl Welded {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
                     let known = cells.get(&[x, y, z]).into_iter().flatten().copied();
-                    let near = |v: &u32| (self.vertices[*v as usize] - p).norm() <= self.tolerance;
-                    if let Some(v) = known.into_iter().find(near) {
+                    let distance = |v: u32| (self.vertices[v as usize] - p).norm();
+                    if let Some(v) = known.into_iter().find(|&v| distance(v) <= self.tolerance) {
+                        let by = distance(v);
+                        if by > 0.0 {
+                            self.moved = (self.moved.0 + 1, self.moved.1.max(by));
+                        }
                         return v;
                     }
                 }
