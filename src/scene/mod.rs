@@ -7,6 +7,7 @@
 mod check;
 mod clump;
 mod decode;
+mod drum;
 mod fault;
 mod model;
 mod outline;
@@ -19,6 +20,7 @@ mod spec;
 mod text;
 
 pub use clump::{Placement, SphereBudget};
+pub use drum::{Baffles, Drum, Wall};
 pub use fault::{Fault, FaultKind, Place, SceneFaults};
 pub use model::*;
 pub use outline::Syntax;

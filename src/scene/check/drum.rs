@@ -1,7 +1,7 @@
 //! The pan.
 
+use super::super::drum::{Baffles, Drum, Wall};
 use super::super::fault::FaultKind;
-use super::super::model::{Baffles, Drum, Wall};
 use super::super::path::KeyPath;
 use super::super::spec::{BafflesSpec, DrumSpec, WallSpec};
 use super::{Allowed, Checker};

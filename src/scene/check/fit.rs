@@ -1,7 +1,8 @@
 //! Whether the parts of a scene fit together.
 
+use super::super::drum::Drum;
 use super::super::fault::FaultKind;
-use super::super::model::{Aim, Drum, Record, Scene, Spray};
+use super::super::model::{Aim, Record, Scene, Spray};
 use super::super::path::KeyPath;
 use super::super::recipe::Recipe;
 use super::pattern::LONGEST_PHASE;
