@@ -1,8 +1,9 @@
 //! The bed of other codes' runs: figures of pancoat beside those of LIGGGHTS, LAMMPS and Yade.
 //!
 //! `cargo run --release --example peers -- CASE` with CASE `spheres_mu0.1`, `spheres_mu0.5` or `pan20_mu0.5` runs the drum
-//! from the decks' start state and prints a table; `--csv FILE` adds a line to a table like `scenes/peers/reference.csv`,
-//! `--dt` sets another step, s, and `--threads` more than one thread.
+//! from the decks' start state and prints a table. `--csv FILE` adds a line to a table: name, window, s, and each figure with
+//! its standard error. `--dt` sets another step, s, `--until` another end of the window than the reference's, s, and
+//! `--threads` more than one thread.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example prints its result")]
 
 #[path = "common/peers_figures.rs"]
@@ -11,18 +12,18 @@ mod peers_figures;
 mod peers_scene;
 
 use pancoat::stepping::Simulation;
-use peers_figures::{NAMES, Watch};
+use peers_figures::{NAMES, Watch, reference};
 use std::io::Write as _;
-use std::path::Path;
 
 fn main() {
     let mut args = std::env::args().skip(1);
     let name = args.next().unwrap_or_else(|| "spheres_mu0.5".into());
-    let (mut dt, mut csv, mut threads) = (None, None, 1);
+    let (mut dt, mut until, mut csv, mut threads) = (None, None, None, 1);
     while let Some(arg) = args.next() {
         let value = args.next().expect("an option has a value");
         match arg.as_str() {
             "--dt" => dt = Some(value.parse().expect("a step in s")),
+            "--until" => until = Some(value.parse().expect("a time in s")),
             "--threads" => threads = value.parse().expect("a number"),
             "--csv" => csv = Some(value),
             other => panic!("unknown option {other}"),
@@ -32,9 +33,10 @@ fn main() {
     let (bodies, friction) = name.split_once("_mu").expect("a case such as spheres_mu0.5");
     let friction: f64 = friction.parse().expect("a coefficient of friction");
     // The windows of the reference, from its start states.
-    let (case, window) =
+    let (case, mut window) =
         if bodies == "spheres" { ("spheres", [5.0, 15.0]) } else { ("peers20", [1.0, 4.0]) };
 
+    window[1] = until.unwrap_or(window[1]);
     let scene = peers_scene::peers_scene(case, friction, dt);
     let mut simulation = Simulation::new(&scene).expect("the scene is built");
     let tablets = peers_scene::spheres_per_tablet(case).is_some();
@@ -48,32 +50,23 @@ fn main() {
     let figures = watch.figures();
 
     let reference = reference(&name);
-    print!("| {name} | pancoat |");
-    reference.iter().for_each(|(code, _)| print!(" {code} |"));
-    print!("\n|---|---|{}\n", "---|".repeat(reference.len()));
-    let shown = |(value, error): (f64, f64)| format!(" {value:.3} ± {error:.3} |");
+    let codes = reference.iter().map(|(code, _)| format!(" {code} |"));
+    println!(
+        "| {name} | pancoat |{}\n|---|---|{}",
+        codes.collect::<String>(),
+        "---|".repeat(reference.len())
+    );
+    let shown = |(value, error): (f64, f64)| {
+        if value.is_finite() { format!(" {value:.3} ± {error:.3} |") } else { " |".to_owned() }
+    };
     for (k, figure) in NAMES.iter().enumerate().filter(|(k, _)| figures[*k].0.is_finite()) {
-        print!("| {figure} |{}", shown(figures[k]));
-        reference.iter().for_each(|(_, values)| print!("{}", shown(values[k])));
-        println!();
+        let others = reference.iter().map(|(_, values)| shown(values[k]));
+        println!("| {figure} |{}{}", shown(figures[k]), others.collect::<String>());
     }
     if let Some(path) = csv {
         let mut file = std::fs::File::options().create(true).append(true).open(path).expect("a file");
         let values: Vec<String> = figures.iter().map(|(v, e)| format!("{v:.5},{e:.3}")).collect();
-        writeln!(file, "pancoat_{name},{},{},{}", window[0], window[1], values.join(",")).expect("is written");
+        writeln!(file, "pancoat_{name},{},{},{}", window[0], window[1], values.join(","))
+            .expect("is written");
     }
-}
-
-/// What each other code found in a case: its name and its figures.
-fn reference(case: &str) -> Vec<(String, Vec<(f64, f64)>)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/peers/reference.csv");
-    let text = std::fs::read_to_string(path).expect("the reference");
-    let lines = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
-    let same = lines.filter_map(|fields| {
-        let (code, what) = fields[0].split_once('_')?;
-        let number = |text: &str| text.parse().unwrap_or(f64::NAN);
-        let values = fields[5..].chunks(2).map(|pair| (number(pair[0]), number(pair[1])));
-        (what == case).then(|| (code.to_owned(), values.collect()))
-    });
-    same.collect()
 }

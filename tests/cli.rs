@@ -388,3 +388,46 @@ fn a_signal_stops_with_75() {
     assert_eq!(child.wait().expect("ends").code(), Some(75));
     assert_eq!(record(Path::new(&out))["status"], "stopped");
 }
+
+#[test]
+fn an_audited_run_tells_where_its_energy_went() {
+    let (_folder, scene, out) = small();
+    pancoat(&["run", &scene, "--out", &out, "--quiet", "--set", "outputs.energy=true"]).success();
+    let energy = &record(Path::new(&out))["guards"]["energy"];
+    for key in ["kinetic_J", "normal_dashpots_J", "sliding_J", "wall_work_J"] {
+        assert!(energy[key].as_f64().is_some_and(|x| x > 0.0), "{key}: {energy}");
+    }
+    assert!(energy["residual_over_dissipated"].as_f64().is_some_and(|x| x.abs() < 0.05), "{energy}");
+    let sets = ["--set", "outputs.energy=true", "--set", "contact.mode=Impulse(step: Ms(1))"];
+    let refused = pancoat(&[&["check", &scene][..], &sets].concat()).code(2);
+    assert!(stderr(&refused).contains("needs contact.mode: HertzMindlin"), "{}", stderr(&refused));
+}
+
+#[test]
+fn accuracy_compares_settings_and_goes_on_where_it_stopped() {
+    let (folder, scene, _) = small();
+    let out = folder.path().join("accuracy").display().to_string();
+    let arguments = ["accuracy", &scene, "--out", &out, "--seeds", "2", "--seconds", "0.2"];
+    let run = |only: &str| pancoat(&[&arguments[..], &["--only", only]].concat()).success();
+    let first = run("tangential,mode");
+    assert!(stderr(&first).contains("run 10 of 10, about 0:0"), "{}", stderr(&first));
+    let page = fs::read_to_string(stdout(&first).trim()).expect("has a page");
+    assert!(page.contains("Impulse, 2 ms") && page.contains("Rescaled"));
+    let mut table = csv::Reader::from_path(Path::new(&out).join("accuracy.csv")).expect("is a table");
+    let columns = table.headers().expect("has columns").clone();
+    let rows: Vec<csv::StringRecord> = table.records().map(|row| row.expect("is a row")).collect();
+    assert_eq!(rows.len(), 6);
+    let at = |name: &str| columns.iter().position(|column| column == name).expect("is a column");
+    for row in &rows {
+        assert!(row[at("mean_speed_m_per_s")].parse::<f64>().is_ok_and(|speed| speed > 0.0), "{row:?}");
+        assert!(row[at("failure")].is_empty(), "{row:?}");
+    }
+    assert_eq!(rows.iter().filter(|row| &row[at("default")] == "1").count(), 2);
+
+    let told = || fs::read_to_string(Path::new(&out).join("accuracy.md")).expect("has its tables");
+    let before = told();
+    let again = run("tangential,mode");
+    assert!(!stderr(&again).contains("run 1 of"), "{}", stderr(&again));
+    assert_eq!(told(), before);
+    pancoat(&["accuracy", &scene, "--seeds", "1"]).code(2);
+}

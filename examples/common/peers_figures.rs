@@ -4,6 +4,7 @@
 use super::peers_scene::{MASS, MOMENTS, RADIUS, WIDTH};
 use nalgebra::Vector3;
 use pancoat::stepping::{BodyState, Frame, Observer};
+use std::path::Path;
 
 /// Names and order of the figures, units in the names.
 ///
@@ -133,4 +134,18 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     let (x, y) = points.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
     let along = |f: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>();
     along(&|p| (p.0 - x) * (p.1 - y)) / along(&|p| (p.0 - x).powi(2))
+}
+
+/// What each other code found in a case: its name, and its figures with their standard errors.
+pub(crate) fn reference(case: &str) -> Vec<(String, Vec<(f64, f64)>)> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/peers/reference.csv");
+    let text = std::fs::read_to_string(path).expect("the reference");
+    let lines = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+    let same = lines.filter_map(|fields| {
+        let (code, what) = fields[0].split_once('_')?;
+        let number = |text: &str| text.parse().unwrap_or(f64::NAN);
+        let values = fields[5..].chunks(2).map(|pair| (number(pair[0]), number(pair[1])));
+        (what == case).then(|| (code.to_owned(), values.collect()))
+    });
+    same.collect()
 }

@@ -3,8 +3,8 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 use pancoat::scene::{
-    ContactSettings, Drum, FreeBody, Material, Outputs, PairProperties, PairTable, Recipe, Scene, Settle,
-    Shape, StepChoice, Time,
+    ContactSettings, Drum, FreeBody, Material, Outputs, PairProperties, PairTable, Placement, Recipe, Scene,
+    Settle, Shape, SphereBudget, StepChoice, Time, Wall,
 };
 use std::path::{Path, PathBuf};
 
@@ -63,14 +63,22 @@ pub(crate) fn peers_scene(case: &str, friction: f64, dt: Option<f64>) -> Scene {
             Material { name: "steel".into(), shear_modulus: 3e6, poisson: 0.3 },
         ],
         pairs: PairTable::new(2, pair),
-        shapes: vec![Shape { name: "tablet".into(), recipe, spheres, panels: 0 }],
+        shapes: vec![Shape {
+            name: "tablet".into(),
+            recipe,
+            spheres: SphereBudget::Count(spheres),
+            placement: Placement::Inscribed,
+            panels: 0,
+        }],
         batches: vec![],
         drum: Some(Drum {
             diameter: 0.2,
             width: WIDTH,
             speed: 22.0 * std::f64::consts::TAU / 60.0,
             material: 1,
+            wall: Wall::Cylinder,
             facets: 90,
+            axis_tilt: 0.0,
             baffles: None,
         }),
         bodies: bodies.collect(),
@@ -84,6 +92,13 @@ pub(crate) fn peers_scene(case: &str, friction: f64, dt: Option<f64>) -> Scene {
             frame_interval: 0.02,
         },
         spray: None,
-        outputs: Outputs { series_interval: 1.0, report: false, picture: false, statistics: false },
+        outputs: Outputs {
+            series_interval: 1.0,
+            report: false,
+            picture: false,
+            statistics: false,
+            energy: false,
+            record: None,
+        },
     }
 }

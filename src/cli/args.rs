@@ -32,6 +32,8 @@ pub(super) enum Command {
     Report(ReportArgs),
     /// Say how uniform the tablets of a run can get, when, and how many to measure; also while it runs
     Predict(PredictArgs),
+    /// Say what each choice of the numerics costs and changes: step, modulus, spheres, tangential law, contact mode
+    Accuracy(AccuracyArgs),
     /// Put runs side by side, or a run against terahertz scans of real tablets
     Compare(CompareArgs),
 }
@@ -165,6 +167,27 @@ pub(super) struct PredictArgs {
     /// Relative error that measured tablets are to have, at 95 % confidence
     #[arg(long, value_name = "SHARE", default_value = "0.1", value_parser = share)]
     pub(super) error: f64,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct AccuracyArgs {
+    #[command(flatten)]
+    pub(super) scene: SceneArg,
+    /// Folder of the results; runs that are done there are not repeated [default: runs/accuracy/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Seeds of each case, for the confidence intervals
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(2..=1000))]
+    pub(super) seeds: u64,
+    /// Time that a settled bed turns in each run, in seconds
+    #[arg(long, value_name = "S", default_value = "4", value_parser = seconds)]
+    pub(super) seconds: f64,
+    /// Only these choices
+    #[arg(long, value_name = "CHOICE", value_delimiter = ',', value_parser = ["step", "modulus", "spheres", "tangential", "mode"])]
+    pub(super) only: Vec<String>,
+    /// No progress on stderr
+    #[arg(long)]
+    pub(super) quiet: bool,
 }
 
 #[derive(Debug, ClapArgs)]

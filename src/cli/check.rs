@@ -20,7 +20,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
         print_line(&format!("{name:<20}{text}"))?;
     }
     guards::refuse(&scene, shapes, step)?;
-    for warning in guards::warnings(shapes, step, step.impact_overlap) {
+    for warning in guards::warnings(scene.contact.mode, shapes, step, step.impact_overlap) {
         print_line(&format!("{:<20}{warning}", "warning"))?;
     }
     for repair in simulation.repairs() {
@@ -101,6 +101,7 @@ fn left_out(scene: &Scene) -> Vec<Line> {
         (!outputs.statistics || scene.drum.is_none(), "bed statistics: switched off, or no drum"),
         (!outputs.picture || no_spray, "bed picture: switched off, or no spray"),
         (!outputs.report, "report: switched off"),
+        (!outputs.energy, "energy audit: not asked for"),
     ];
     list.into_iter().filter(|(out, _)| *out).map(|(_, why)| ("left out", why.to_owned())).collect()
 }

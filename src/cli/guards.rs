@@ -1,6 +1,6 @@
 //! What is refused before a run, and what is warned of before and after it.
 
-use crate::scene::Scene;
+use crate::scene::{ContactMode, Scene};
 use crate::shapes::TabletShape;
 use crate::stepping::TimeStep;
 
@@ -47,8 +47,11 @@ pub(super) enum Warning {
     LargeOverlap(f64),
 }
 
-/// Refuses a step that cannot be stable.
+/// Refuses a step that cannot be stable. Impulses have no contacts to resolve.
 pub(super) fn refuse(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> Result<(), Refusal> {
+    if scene.contact.mode != ContactMode::HertzMindlin {
+        return Ok(());
+    }
     if step.steps_per_contact() < FEWEST_STEPS {
         return Err(Refusal::StepsPerContact(step.steps_per_contact()));
     }
@@ -57,8 +60,16 @@ pub(super) fn refuse(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> 
     if travel > FARTHEST_TRAVEL { Err(Refusal::Travel(travel)) } else { Ok(()) }
 }
 
-/// Warnings of a step, and of the largest overlap over radius, expected or met.
-pub(super) fn warnings(shapes: &[TabletShape], step: &TimeStep, overlap: f64) -> Vec<Warning> {
+/// Warnings of a step, and of the largest overlap over radius, expected or met; none with impulses.
+pub(super) fn warnings(
+    mode: ContactMode,
+    shapes: &[TabletShape],
+    step: &TimeStep,
+    overlap: f64,
+) -> Vec<Warning> {
+    if mode != ContactMode::HertzMindlin {
+        return Vec::new();
+    }
     let steps = step.steps_per_contact();
     let clumps = shapes.iter().any(|shape| shape.clump.spheres.len() > 1);
     let few = match steps {
@@ -82,15 +93,18 @@ mod tests {
             rayleigh_time: 1e-3,
             impact_overlap: 0.0,
         };
-        assert!(warnings(&[], &step(30.0), 0.02).is_empty());
-        assert!(matches!(warnings(&[], &step(12.0), 0.02)[..], [Warning::FewSteps(_)]));
-        let told = warnings(&[], &step(30.0), 0.21)[0].to_string();
+        assert!(warnings(ContactMode::HertzMindlin, &[], &step(30.0), 0.02).is_empty());
+        assert!(matches!(
+            warnings(ContactMode::HertzMindlin, &[], &step(12.0), 0.02)[..],
+            [Warning::FewSteps(_)]
+        ));
+        let told = warnings(ContactMode::HertzMindlin, &[], &step(30.0), 0.21)[0].to_string();
         assert!(told.starts_with("overlaps reach 21 % of a sphere's radius"), "{told}");
 
         let text = crate::scene::SceneText::embedded("sphere", &[]).unwrap();
         let scene = text.scene().unwrap();
         let shapes: Vec<_> = scene.shapes.iter().map(|s| TabletShape::build(s, false).unwrap()).collect();
-        assert!(warnings(&shapes, &step(30.0), 0.02).is_empty());
+        assert!(warnings(ContactMode::HertzMindlin, &shapes, &step(30.0), 0.02).is_empty());
         assert_eq!(refuse(&scene, &shapes, &step(30.0)), Ok(()));
         assert!(matches!(refuse(&scene, &shapes, &step(7.9)), Err(Refusal::StepsPerContact(_))));
         let long = TimeStep { step: 1e-2, contact_time: 1.0, ..step(1.0) };

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done, 1 the run failed, 2 the input is at fault, 75 stopped on request.
 
+mod accuracy;
 mod args;
 mod bed;
 mod check;
@@ -37,6 +38,7 @@ pub fn main() -> ExitCode {
         Command::Shape(args) => shape::shape(&args),
         Command::New(args) => new::new(&args),
         Command::Predict(args) => predict::predict(&args),
+        Command::Accuracy(args) => accuracy::accuracy(&args),
         Command::Compare(args) => compare::compare(&args),
     };
     match done {

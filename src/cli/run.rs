@@ -9,11 +9,12 @@ use super::{bed, guards, print_line};
 use crate::observers::statistics::BedStatistics;
 use crate::observers::{Backend, Observer, Packing, RecordedAim, Recorder, Recording};
 use crate::report::{
-    Derived, Guards, Machine, Performance, RECORD_FORMAT, ReportData, Results, RunDir, RunRecord, Status,
+    Derived, EnergyAudit, Guards, Machine, Performance, RECORD_FORMAT, ReportData, Results, RunDir,
+    RunRecord, Status,
 };
 use crate::scene::{Drum, Record, Scene};
 use crate::shapes::TabletShape;
-use crate::stepping::{Frame, Progress, Simulation, SimulationError, TimeStep};
+use crate::stepping::{Energy, Frame, Progress, Simulation, SimulationError, TimeStep};
 use nalgebra::Vector3;
 use std::path::Path;
 
@@ -85,6 +86,9 @@ impl Session {
         if let (Some(drum), true) = (&scene.drum, scene.outputs.statistics) {
             self.bed = Some(bed::statistics(simulation, drum));
         }
+        if scene.outputs.energy {
+            simulation.audit_energy();
+        }
         self.directory.write_record(&self.record)?;
         let purpose = if scene.spray.is_some() { "spraying" } else { "running" };
         self.watch.begin(purpose, scene.time.duration);
@@ -143,8 +147,12 @@ impl Session {
         let step = simulation.time_step();
         let overlap = simulation.deepest_overlap();
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
+        self.record.guards.energy = simulation.energy().as_ref().map(audit);
         self.record.warnings =
-            guards::warnings(simulation.shapes(), step, overlap).iter().map(ToString::to_string).collect();
+            guards::warnings(simulation.scene().contact.mode, simulation.shapes(), step, overlap)
+                .iter()
+                .map(ToString::to_string)
+                .collect();
         self.record
             .warnings
             .extend(simulation.repairs().iter().map(|repair| format!("mesh repaired: {repair}")));
@@ -207,6 +215,23 @@ fn packing(record: Record, drum: Option<&Drum>) -> Packing {
             Packing::Compact { min: -half, max: half }
         }
         _ => Packing::Exact,
+    }
+}
+
+/// The energies of a run as its record keeps them.
+pub(super) fn audit(energy: &Energy) -> EnergyAudit {
+    EnergyAudit {
+        kinetic_j: energy.kinetic,
+        potential_j: energy.potential,
+        elastic_normal_j: energy.elastic_normal,
+        elastic_tangential_j: energy.elastic_tangential,
+        normal_dashpots_j: energy.normal_dashpots,
+        tangential_dashpots_j: energy.tangential_dashpots,
+        sliding_j: energy.sliding,
+        stiffness_change_j: energy.stiffness_change,
+        wall_work_j: energy.wall_work,
+        residual_j: energy.residual(),
+        residual_over_dissipated: energy.residual() / energy.dissipated().max(f64::MIN_POSITIVE),
     }
 }
 

@@ -6,6 +6,7 @@
 //!
 //! A contact has one common point for both bodies, so that angular momentum is conserved to round-off.
 
+use super::energy::Press;
 use super::law::{Dashpots, PairLaw, Spring, Touch};
 use super::side::{CROWD, DAMPED, Felt, Side, frequency};
 use crate::scene::{DampingMass, TangentialLaw};
@@ -235,6 +236,12 @@ impl Batch {
             done(meeting.exchange(blocks), meeting.list, &mut springs);
         }
     }
+
+    /// What the contacts worked out last came to, in the order in which they were taken.
+    pub(super) fn presses(&self, laws: &[PairLaw], dt: f64) -> impl Iterator<Item = Press> {
+        let lanes = self.meetings.iter().flat_map(Meeting::lanes);
+        lanes.map(move |(at, k)| self.blocks[at].pressed(k, laws, dt))
+    }
 }
 
 impl Meeting {
@@ -356,6 +363,26 @@ impl Block {
     #[inline(always)]
     fn spring(&self, k: usize) -> Spring {
         Spring { stretch: get(&self.stretch, k), radius: self.stretch_radius[k] }
+    }
+
+    fn pressed(&self, k: usize, laws: &[PairLaw], dt: f64) -> Press {
+        let (law, spring, normal) = (&laws[self.law], self.spring(k), get(&self.normal, k));
+        let (force, velocity) = (get(&self.force, k), get(&self.velocity, k));
+        let slip = (velocity - normal * velocity.dot(&normal)) * dt;
+        let spring_force = law.spring_force(&spring, &slip);
+        let across = normal * force.dot(&normal);
+        let elastic = normal * (2.0 / 3.0 * law.normal_stiffness(spring.radius) * self.overlap[k]);
+        Press {
+            law: self.law,
+            normal,
+            overlap: self.overlap[k],
+            arm: get(&self.arm, k),
+            slip,
+            spring,
+            spring_force,
+            dashpot_forces: [across - elastic, force - across - spring_force],
+            force,
+        }
     }
 
     fn felt(&self, k: usize, offset: &Vector3<f64>) -> Felt {

@@ -65,22 +65,24 @@ pub struct ContactField {
     outlines: Vec<Outline>,
     bodies: Vec<BodyConstants>,
     arms: Vec<Arms>,
-    laws: Vec<PairLaw>,
+    pub(super) laws: Vec<PairLaw>,
     materials: usize,
     damping: DampingMass,
+    /// Whether single contacts are kept for [`ContactField::contacts`].
+    pub(super) keep_contacts: bool,
     skin: f64,
     watches: Vec<PairWatch>,
     /// The lists of `watches`, in the same order.
     #[expect(clippy::vec_box, reason = "lists are large and change places at every search")]
     pairs: Vec<Box<BodyPair>>,
     boundaries: Vec<Boundary>,
-    wall_watches: Vec<WallWatch>,
+    pub(super) wall_watches: Vec<WallWatch>,
     /// The lists of `wall_watches`, in the same order.
-    walls: Vec<WallList>,
+    pub(super) walls: Vec<WallList>,
     /// One for each task over pairs.
-    desks: Vec<Desk>,
+    pub(super) desks: Vec<Desk>,
     /// One for each task over walls.
-    wall_desks: Vec<Desk>,
+    pub(super) wall_desks: Vec<Desk>,
     /// Torque on each surface about its own origin in the last step, N m.
     surface_torques: Vec<Vector3<f64>>,
 }
@@ -102,6 +104,7 @@ impl ContactField {
             laws: laws.collect(),
             materials: n,
             damping: scene.contact.damping_mass,
+            keep_contacts: false,
             skin: SKIN * largest,
             watches: Vec::new(),
             pairs: Vec::new(),
@@ -196,11 +199,14 @@ impl ContactField {
             dt,
         };
         let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
+        let (setting, keep_contacts) = (&setting, self.keep_contacts);
         let pairs = |((watches, lists), desk)| {
-            pulp::Arch::new().dispatch(PairTask { watches, lists, desk, setting: &setting, laws, damping });
+            let task = PairTask { watches, lists, desk, setting, laws, damping, keep_contacts };
+            pulp::Arch::new().dispatch(task);
         };
         let walls = |((watches, lists), desk)| {
-            let task = WallTask { watches, lists, desk, setting: &setting, laws, damping, boundaries, world };
+            let task =
+                WallTask { watches, lists, desk, setting, laws, damping, keep_contacts, boundaries, world };
             pulp::Arch::new().dispatch(task);
         };
         self.wall_desks.resize_with(self.walls.len().div_ceil(CHUNK), Desk::default);

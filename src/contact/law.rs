@@ -41,6 +41,7 @@ pub struct PairLaw {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spring {
     /// Tangential displacement ξ, m, for [`TangentialLaw::Total`]; elastic tangential force over −1, N, for the others.
+    /// Half a step ahead of the force it came from.
     pub stretch: Vector3<f64>,
     /// √(R* δ) of the last step, m: the contact radius, used by [`TangentialLaw::Rescaled`].
     pub radius: f64,
@@ -160,29 +161,37 @@ impl PairLaw {
         }
         let slip = touch.velocity - n * approach;
         let stiffness = self.tangential_stiffness(contact_radius);
+        // The spring was left half a step ahead, at the velocity of then: with the other half at the present velocity its
+        // displacement is the trapezoidal sum of the slip.
+        let half = slip * (0.5 * dt);
         let mut stretch = carried(&spring.stretch, &n, touch.twirl * dt);
-        let scale = match self.tangential {
-            TangentialLaw::Total => {
-                stretch += slip * dt;
-                stiffness
-            }
-            TangentialLaw::Incremental => {
-                stretch += slip * (stiffness * dt);
-                1.0
-            }
+        let (scale, half) = match self.tangential {
+            TangentialLaw::Total => (stiffness, half),
+            TangentialLaw::Incremental => (1.0, half * stiffness),
             TangentialLaw::Rescaled => {
                 stretch *= if contact_radius < spring.radius { contact_radius / spring.radius } else { 1.0 };
-                stretch += slip * (stiffness * dt);
-                1.0
+                (1.0, half * stiffness)
             }
         };
+        stretch += half;
         let limit = self.friction * normal.abs();
         let held = scale * stretch.norm();
         let sliding = held > limit;
         stretch *= if sliding { limit / held } else { 1.0 };
-        *spring = Spring { stretch, radius: contact_radius };
+        *spring = Spring { stretch: stretch + half, radius: contact_radius };
         let dashpot = if sliding { 0.0 } else { dashpots.tangential };
         ContactForce { normal, tangential: -(stretch * scale) - slip * dashpot, sliding }
+    }
+}
+
+impl PairLaw {
+    /// Force on b of the spring that [`PairLaw::force`] left behind after the slip of a step, m.
+    pub(super) fn spring_force(&self, spring: &Spring, slip: &Vector3<f64>) -> Vector3<f64> {
+        let stiffness = self.tangential_stiffness(spring.radius);
+        match self.tangential {
+            TangentialLaw::Total => (slip * 0.5 - spring.stretch) * stiffness,
+            TangentialLaw::Incremental | TangentialLaw::Rescaled => slip * (0.5 * stiffness) - spring.stretch,
+        }
     }
 }
 

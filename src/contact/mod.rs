@@ -7,7 +7,10 @@
 mod arms;
 mod batch;
 mod body;
+mod energy;
 mod field;
+#[cfg(test)]
+mod harvest;
 mod law;
 mod lease;
 mod memory;
@@ -17,5 +20,6 @@ mod surface;
 mod tasks;
 mod walls;
 
+pub use energy::{ContactState, Press};
 pub use field::{ContactField, Partner, Tally, Wrench};
 pub use law::{ContactForce, Dashpots, PairLaw, Spring, Touch, damping_ratio};

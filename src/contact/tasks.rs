@@ -5,6 +5,7 @@
 use super::arms::{self, Arms};
 use super::batch::{Batch, Exchange, Rule};
 use super::body::{BodyConstants, Outline};
+use super::energy::Press;
 use super::law::PairLaw;
 use super::memory::Memory;
 use super::pairs::{BodyPair, PairWatch, Scratch, Setting};
@@ -25,6 +26,8 @@ pub(super) struct Desk {
     /// Of the contacts between bodies.
     pub memory: Memory,
     pub touching: Vec<Exchange>,
+    /// Contact by contact, when asked for.
+    pub presses: Vec<Press>,
 }
 
 /// Bodies whose spheres one task turns.
@@ -54,6 +57,7 @@ pub(super) struct PairTask<'a> {
     pub setting: &'a Setting<'a>,
     pub laws: &'a [PairLaw],
     pub damping: DampingMass,
+    pub keep_contacts: bool,
 }
 
 impl pulp::NullaryFnOnce for PairTask<'_> {
@@ -62,8 +66,9 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { watches, lists, setting, .. } = self;
-        let Desk { scratch, batch, memory, touching } = self.desk;
+        let Desk { scratch, batch, memory, touching, presses } = self.desk;
         touching.clear();
+        presses.clear();
         memory.turn_over();
         let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
         // Alone, so that the lists are fetched from memory side by side.
@@ -86,6 +91,9 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
                     touching.push(exchange);
                     memory.keep(springs);
                 });
+                if self.keep_contacts {
+                    presses.extend(batch.presses(self.laws, setting.dt));
+                }
                 batch.clear();
             }
         }
@@ -101,6 +109,7 @@ pub(super) struct WallTask<'a> {
     pub setting: &'a Setting<'a>,
     pub laws: &'a [PairLaw],
     pub damping: DampingMass,
+    pub keep_contacts: bool,
     pub boundaries: &'a [Boundary],
     pub world: &'a World,
 }
@@ -111,8 +120,9 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { watches, lists, setting, boundaries, world, .. } = self;
-        let Desk { scratch, batch, touching, .. } = self.desk;
+        let Desk { scratch, batch, touching, presses, .. } = self.desk;
         touching.clear();
+        presses.clear();
         let rule = Rule { damping: self.damping, inside: 0.0, dt: setting.dt };
         let facets = |surface: &Boundary, min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
             world.facets_near(surface.mesh, min, max, out);
@@ -129,6 +139,9 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
             touching.push(exchange);
             lists[list].keep(springs);
         });
+        if self.keep_contacts {
+            presses.extend(batch.presses(self.laws, setting.dt));
+        }
         batch.clear();
     }
 }

@@ -117,7 +117,7 @@ fn half_width(derivatives: &[f64], blocks: usize) -> f64 {
 }
 
 /// Two-sided 95 % point of Student's t (Abramowitz and Stegun 1964, 26.7.5); within 2 % from four degrees of freedom on.
-fn student_95(degrees: f64) -> f64 {
+pub(super) fn student_95(degrees: f64) -> f64 {
     let z = 1.959_963_984_540_054_f64;
     let first = (z.powi(3) + z) / 4.0;
     let second = (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0;

@@ -26,6 +26,7 @@ mod tablet_spread;
 mod tablet_surface;
 pub mod thz;
 mod trial_process;
+mod work_precision;
 
 pub use asymptote::Asymptote;
 pub use asymptote_estimate::AsymptoteEstimate;
@@ -44,6 +45,7 @@ pub use series::SeriesRow;
 pub use tablet_spread::{SpreadLaw, tablets_to_measure};
 pub use tablet_surface::TabletSurface;
 pub use trial_process::{TrialExpectation, TrialProcess};
+pub use work_precision::{Precision, Run, work_precision};
 
 /// Why a model cannot be computed from the data it was given.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

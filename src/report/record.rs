@@ -114,6 +114,46 @@ pub struct SprayAim {
 pub struct Guards {
     /// Largest overlap of the run over the smaller sphere's radius, %.
     pub largest_overlap_percent: f64,
+    /// Where energy is and where it went over the coated time, if the scene asks for the audit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyAudit>,
+}
+
+/// Energies at the end of a run and what went where since coating began, J.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyAudit {
+    /// Kinetic energy.
+    #[serde(rename = "kinetic_J")]
+    pub kinetic_j: f64,
+    /// Potential energy in gravity.
+    #[serde(rename = "potential_J")]
+    pub potential_j: f64,
+    /// Elastic energy of overlaps.
+    #[serde(rename = "elastic_normal_J")]
+    pub elastic_normal_j: f64,
+    /// Elastic energy of tangential springs.
+    #[serde(rename = "elastic_tangential_J")]
+    pub elastic_tangential_j: f64,
+    /// Dissipated by normal dashpots.
+    #[serde(rename = "normal_dashpots_J")]
+    pub normal_dashpots_j: f64,
+    /// Dissipated by tangential dashpots.
+    #[serde(rename = "tangential_dashpots_J")]
+    pub tangential_dashpots_j: f64,
+    /// Dissipated by sliding.
+    #[serde(rename = "sliding_J")]
+    pub sliding_j: f64,
+    /// Lost from springs whose stiffness changed; negative where the tangential law creates energy.
+    #[serde(rename = "stiffness_change_J")]
+    pub stiffness_change_j: f64,
+    /// Work of the walls on the bodies.
+    #[serde(rename = "wall_work_J")]
+    pub wall_work_j: f64,
+    /// What does not sum up: the error of the motion.
+    #[serde(rename = "residual_J")]
+    pub residual_j: f64,
+    /// The same over what was dissipated.
+    pub residual_over_dissipated: f64,
 }
 
 /// What came out.

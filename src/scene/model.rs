@@ -172,14 +172,29 @@ pub enum BoundarySurface {
 }
 
 /// Choices of the contact law, each with the documented default.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactSettings {
+    /// What works contacts out.
+    pub mode: ContactMode,
     /// Cut the normal force at zero when the dashpot would pull.
     pub no_tension: bool,
     /// How the tangential spring follows a changing overlap.
     pub tangential: TangentialLaw,
     /// Which mass the dashpots see.
     pub damping_mass: DampingMass,
+}
+
+/// What works contacts out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum ContactMode {
+    /// Hertz-Mindlin contacts between the spheres of clumps.
+    #[default]
+    HertzMindlin,
+    /// Rapier's own impulses between convex hulls of the clumps, for a quick look: no overlaps, no springs.
+    Impulse {
+        /// Step, s; the scene's own step is that of Hertz-Mindlin contacts.
+        step: f64,
+    },
 }
 
 /// Tangential spring law.
@@ -306,6 +321,7 @@ impl Deposit {
 
 /// What a run writes beside its record.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub struct Outputs {
     /// Time between rows of `series.csv`, s.
     pub series_interval: f64,
@@ -315,6 +331,8 @@ pub struct Outputs {
     pub picture: bool,
     /// Whether bed statistics (angle of repose, speeds, torque) are kept.
     pub statistics: bool,
+    /// Whether energy is audited; not with impulses.
+    pub energy: bool,
     /// Whether and how poses are recorded.
     pub record: Option<Record>,
 }

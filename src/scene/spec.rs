@@ -214,9 +214,17 @@ pub(super) enum SurfaceSpec {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Contact")]
 pub(super) struct ContactSpec {
+    pub(super) mode: Option<ContactModeSpec>,
     pub(super) no_tension: Option<bool>,
     pub(super) tangential: Option<TangentialSpec>,
     pub(super) damping_mass: Option<DampingMassSpec>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "ContactMode")]
+pub(super) enum ContactModeSpec {
+    HertzMindlin,
+    Impulse { step: Option<TimeSpan> },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
@@ -343,6 +351,7 @@ pub(super) struct OutputsSpec {
     pub(super) report: Option<bool>,
     pub(super) picture: Option<bool>,
     pub(super) statistics: Option<bool>,
+    pub(super) energy: Option<bool>,
     pub(super) record: Option<RecordSpec>,
 }
 

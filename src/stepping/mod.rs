@@ -1,15 +1,19 @@
 //! The simulation: time step, integrator, guards and the loop that hands frames to observers.
 
 mod body;
+mod energy;
 mod error;
 mod filling;
+mod fingerprint;
 mod frame;
+mod impulse;
 mod settling;
 mod simulation;
 mod stages;
 mod stopwatch;
 mod time_step;
 
+pub use energy::Energy;
 pub use error::SimulationError;
 pub use frame::{BodyState, Frame, Observer};
 pub use simulation::Simulation;

@@ -1,14 +1,16 @@
 //! The loop.
 
 use super::body::Body;
+use super::energy::EnergyAudit;
 use super::error::SimulationError;
 use super::frame::BodyState;
+use super::impulse;
 use super::stopwatch::{Phase, Stopwatch};
 use super::time_step::TimeStep;
 use crate::contact::{ContactField, Tally, Wrench};
-use crate::scene::{Boundary, BoundarySurface, Scene};
+use crate::scene::{Boundary, BoundarySurface, ContactMode, Scene};
 use crate::shapes::{ImportedSurface, SurfaceMesh, TabletShape, drum_surface, read_surface};
-use crate::world::{Motion, World};
+use crate::world::{ImpulseWorld, Motion, World};
 use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -26,8 +28,10 @@ pub struct Simulation {
     time_step: TimeStep,
     step: u64,
     world: World,
-    field: ContactField,
-    bodies: Vec<Body>,
+    pub(super) field: ContactField,
+    /// What moves bodies and solves contacts in place of `world` and `field`, if the scene says so.
+    impulses: Option<ImpulseWorld>,
+    pub(super) bodies: Vec<Body>,
     /// Shape of each body.
     kinds: Vec<usize>,
     pub(super) motions: Vec<Motion>,
@@ -42,6 +46,7 @@ pub struct Simulation {
     torque_steps: u64,
     deepest: f64,
     tally: Tally,
+    pub(super) audit: Option<EnergyAudit>,
     pub(super) stopwatch: Stopwatch,
 }
 
@@ -70,6 +75,10 @@ impl Simulation {
             shapes,
             step: 0,
             world: World::new(),
+            impulses: match scene.contact.mode {
+                ContactMode::HertzMindlin => None,
+                ContactMode::Impulse { .. } => Some(ImpulseWorld::new(scene.pairs.clone(), &scene.gravity)),
+            },
             bodies: Vec::new(),
             kinds: Vec::new(),
             motions: Vec::new(),
@@ -82,6 +91,7 @@ impl Simulation {
             torque_steps: 0,
             deepest: 0.0,
             tally: Tally::default(),
+            audit: None,
             stopwatch: Stopwatch::default(),
         };
         simulation.add_surfaces()?;
@@ -101,25 +111,24 @@ impl Simulation {
         if let (Some(drum), Some(mesh)) = (&self.scene.drum, &self.drum) {
             let index = self.world.add_surface(mesh);
             self.field.add_mesh(mesh, index, drum.material, true);
+            self.impulses.iter_mut().for_each(|world| world.add_mesh(mesh, drum.material));
             self.drives.push((Vector3::zeros(), Vector3::z() * drum.speed));
             self.meshes += 1;
         }
         let is_mesh = |b: &&Boundary| matches!(b.surface, BoundarySurface::Mesh { .. });
-        let boundaries = &self.scene.boundaries;
+        let boundaries = self.scene.boundaries.clone();
         let meshes_first = boundaries.iter().filter(is_mesh).chain(boundaries.iter().filter(|b| !is_mesh(b)));
         for boundary in meshes_first {
             let drive = (boundary.velocity, boundary.spin);
             match &boundary.surface {
                 BoundarySurface::Plane { point, normal } => {
-                    self.field.add_plane(*point, *normal, boundary.material);
-                    self.drives.push(drive);
+                    self.add_plane(*point, *normal, boundary.material, drive);
                 }
                 BoundarySurface::Box { min, max } => {
                     for axis in 0..3 {
                         let normal = Vector3::ith_axis(axis).into_inner();
-                        self.field.add_plane(*min, normal, boundary.material);
-                        self.field.add_plane(*max, -normal, boundary.material);
-                        self.drives.extend([drive; 2]);
+                        self.add_plane(*min, normal, boundary.material, drive);
+                        self.add_plane(*max, -normal, boundary.material, drive);
                     }
                 }
                 BoundarySurface::Mesh { path, scale } => {
@@ -127,6 +136,7 @@ impl Simulation {
                     self.repairs.extend(repairs.iter().map(|repair| format!("{}: {repair}", path.display())));
                     let index = self.world.add_surface(&mesh);
                     self.field.add_mesh(&mesh, index, boundary.material, false);
+                    self.impulses.iter_mut().for_each(|world| world.add_mesh(&mesh, boundary.material));
                     self.drives.push(drive);
                     self.meshes += 1;
                 }
@@ -137,6 +147,18 @@ impl Simulation {
         Ok(())
     }
 
+    fn add_plane(
+        &mut self,
+        point: Vector3<f64>,
+        normal: Vector3<f64>,
+        material: usize,
+        drive: (Vector3<f64>, Vector3<f64>),
+    ) {
+        self.field.add_plane(point, normal, material);
+        self.impulses.iter_mut().for_each(|world| world.add_plane(&point, &normal, material));
+        self.drives.push(drive);
+    }
+
     pub(super) fn add_body(&mut self, shape: usize, material: usize, mass: f64, state: &BodyState) {
         let inertia = self.shapes[shape].inertia_per_mass * mass;
         let rotation = state.orientation.to_rotation_matrix().into_inner();
@@ -144,6 +166,8 @@ impl Simulation {
             Motion { position: state.position, rotation, velocity: state.velocity, spin: state.spin };
         self.world.add_tablet(&self.shapes[shape].clump, mass, &inertia, &motion);
         self.field.add_body(shape, material, mass, &inertia);
+        let clump = &self.shapes[shape].clump;
+        self.impulses.iter_mut().for_each(|world| world.add_tablet(clump, material, mass, &inertia, &motion));
         let momentum = rotation * rotation.tr_mul(&state.spin).component_mul(&inertia);
         self.bodies.push(Body {
             mass,
@@ -162,6 +186,10 @@ impl Simulation {
     /// One time step: kick, drift, forces at the new time level, kick.
     fn advance(&mut self) -> Result<(), SimulationError> {
         let dt = self.time_step.step;
+        if self.impulses.is_some() {
+            self.advance_by_impulses(dt);
+            return Ok(());
+        }
         self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
         let carrier = self.carrier();
@@ -180,8 +208,23 @@ impl Simulation {
             (body.force, body.torque) = (wrench.force, wrench.torque);
             body.kick(0.5 * dt);
         }
+        if let Some(audit) = &mut self.audit {
+            let bodies = (&self.bodies[..], &self.motions[..]);
+            audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
+        }
         self.note_step();
         self.guard()
+    }
+
+    fn advance_by_impulses(&mut self, dt: f64) {
+        self.step += 1;
+        self.move_surfaces();
+        if let Some(world) = &mut self.impulses {
+            let (bodies, motions) = (&mut self.bodies, &mut self.motions);
+            self.torque_sum += impulse::step(world, &self.surfaces, bodies, motions, &self.scene.gravity, dt);
+            self.torque_steps += 1;
+        }
+        self.stopwatch.lap(Phase::Contact);
     }
 
     fn drift(&mut self, dt: f64) {
@@ -340,22 +383,5 @@ impl Simulation {
             spin: body.spin_of(&motion.rotation, &body.momentum),
         };
         self.bodies.iter().zip(&self.motions).map(state).collect()
-    }
-
-    /// Fingerprint of positions, orientations, velocities, momenta and springs, bit by bit.
-    pub fn state_hash(&self) -> String {
-        let mut hasher = blake3::Hasher::new();
-        let mut put = |x: f64| {
-            hasher.update(&x.to_bits().to_le_bytes());
-        };
-        for (body, motion) in self.bodies.iter().zip(&self.motions) {
-            motion.position.iter().for_each(|x| put(*x));
-            body.orientation.coords.iter().for_each(|x| put(*x));
-            body.velocity.iter().chain(&body.momentum).for_each(|x| put(*x));
-        }
-        for (a, b, i, j, stretch) in self.field.springs() {
-            [a, b, i, j].map(f64::from).into_iter().chain(stretch.iter().copied()).for_each(&mut put);
-        }
-        hasher.finalize().to_hex().to_string()
     }
 }

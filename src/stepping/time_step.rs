@@ -1,7 +1,7 @@
 //! The time step and what it means.
 
 use crate::contact::PairLaw;
-use crate::scene::{Scene, StepChoice};
+use crate::scene::{ContactMode, Scene, StepChoice};
 use crate::shapes::TabletShape;
 
 /// 4 √π Γ(2/5) / (5 Γ(9/10)) · (15/16)^(2/5), dimensionless: the constant of the Hertz contact time.
@@ -50,9 +50,9 @@ impl TimeStep {
                 consider(law(wall), largest, mass, largest);
             }
         }
-        let step = match scene.time.step {
-            StepChoice::Fixed(step) => step,
-            StepChoice::PerContact(steps) => contact_time / steps,
+        let step = match (scene.contact.mode, scene.time.step) {
+            (ContactMode::Impulse { step }, _) | (_, StepChoice::Fixed(step)) => step,
+            (_, StepChoice::PerContact(steps)) => contact_time / steps,
         };
         // A whole number of steps per frame: the step is made shorter, never longer.
         let per_frame = (scene.time.frame_interval / step - 1e-9).ceil().max(1.0);

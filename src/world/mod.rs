@@ -5,12 +5,17 @@
 //! there, so its bodies' boxes hold for long.
 //!
 //! In: poses in f64. Out: which bodies are near each other, and which facets are near a body. What it does not do: turn
-//! contacts into forces (room `contact`) or move anything (room `stepping`).
+//! contacts into forces (room `contact`) or move anything (room `stepping`), but for [`ImpulseWorld`], which does both
+//! when a scene asks for it.
 
+#[cfg(test)]
+pub(crate) mod harvest;
 mod hooks;
+mod impulse;
 mod motion;
 mod tuning;
 
+pub use impulse::ImpulseWorld;
 pub use motion::{Motion, Relative};
 
 use crate::shapes::{Clump, SurfaceMesh};

@@ -18,7 +18,7 @@ mod time;
 
 use super::decode::Located;
 use super::fault::FaultKind;
-use super::model::Scene;
+use super::model::{ContactMode, Scene};
 use super::outline::Node;
 use super::path::KeyPath;
 use super::spec::SceneSpec;
@@ -63,8 +63,12 @@ pub(super) fn check(
     let batches = moving::batches(c, spec.batches.unwrap_or_default());
     let bodies = moving::bodies(c, spec.bodies.unwrap_or_default());
     let boundaries = boundaries::boundaries(c, spec.boundaries.unwrap_or_default());
-    let contact = time::contact(spec.contact);
     let time = time::time(c, spec.time.unwrap_or_default(), drum.is_some());
+    let contact = time::contact(c, spec.contact, time.frame_interval);
+    let energy_audit = spec.outputs.as_ref().is_some_and(|outputs| outputs.energy == Some(true));
+    if energy_audit && contact.mode != ContactMode::HertzMindlin {
+        c.fault(&at.field("outputs").field("energy"), FaultKind::Needs("contact.mode: HertzMindlin"));
+    }
     let spray = spec.spray.map(|spray| spray::spray(c, spray));
     let outputs = time::outputs(c, spec.outputs.unwrap_or_default(), time.frame_interval);
 

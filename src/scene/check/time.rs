@@ -1,11 +1,12 @@
 //! Step, duration, outputs and the choices of the contact law.
 
 use super::super::model::{
-    ContactSettings, DampingMass, Outputs, Record, Settle, StepChoice, TangentialLaw, Time,
+    ContactMode, ContactSettings, DampingMass, Outputs, Record, Settle, StepChoice, TangentialLaw, Time,
 };
 use super::super::path::KeyPath;
 use super::super::spec::{
-    ContactSpec, DampingMassSpec, OutputsSpec, RecordSpec, SettleSpec, StepSpec, TangentialSpec, TimeSpec,
+    ContactModeSpec, ContactSpec, DampingMassSpec, OutputsSpec, RecordSpec, SettleSpec, StepSpec,
+    TangentialSpec, TimeSpec,
 };
 use super::{Allowed, Checker};
 
@@ -20,6 +21,9 @@ const SETTLE_AT_MOST: f64 = 20.0;
 
 /// Time between frames unless the scene says otherwise, s: the paper's sampling interval.
 const FRAME_INTERVAL: f64 = 0.02;
+
+/// Step of impulses unless the scene says otherwise, s.
+const IMPULSE_STEP: f64 = 1e-3;
 
 /// Time between rows of the series unless the scene says otherwise, s.
 const SERIES_INTERVAL: f64 = 0.5;
@@ -58,10 +62,25 @@ pub(super) fn time(c: &mut Checker<'_>, spec: TimeSpec, with_drum: bool) -> Time
     Time { step, impact_speed, settle, duration, frame_interval }
 }
 
-pub(super) fn contact(spec: Option<ContactSpec>) -> ContactSettings {
+/// Impulses may not step over a frame, whose interval is given, s.
+pub(super) fn contact(
+    c: &mut Checker<'_>,
+    spec: Option<ContactSpec>,
+    frame_interval: f64,
+) -> ContactSettings {
     let default = ContactSettings::default();
     let Some(spec) = spec else { return default };
+    let longest = if frame_interval.is_nan() { 1.0 } else { frame_interval };
+    let path = KeyPath::default().field("contact").field("mode").field("step");
     ContactSettings {
+        mode: match spec.mode {
+            None | Some(ContactModeSpec::HertzMindlin) => ContactMode::HertzMindlin,
+            Some(ContactModeSpec::Impulse { step }) => {
+                let default = IMPULSE_STEP.min(longest);
+                let step = c.number_or(&path, step, default, Allowed::from(1e-6).to(longest));
+                ContactMode::Impulse { step }
+            }
+        },
         no_tension: spec.no_tension.unwrap_or(default.no_tension),
         tangential: spec.tangential.map_or(default.tangential, |law| match law {
             TangentialSpec::Total => TangentialLaw::Total,
@@ -85,6 +104,7 @@ pub(super) fn outputs(c: &mut Checker<'_>, spec: OutputsSpec, frame_interval: f6
         report: spec.report.unwrap_or(true),
         picture: spec.picture.unwrap_or(true),
         statistics: spec.statistics.unwrap_or(true),
+        energy: spec.energy.unwrap_or(false),
         record: spec.record.map(|record| match record {
             RecordSpec::Compact => Record::Compact,
             RecordSpec::Exact => Record::Exact,
