@@ -8,9 +8,9 @@ use crate::stepping::TimeStep;
 const FEWEST_STEPS: f64 = 8.0;
 /// Steps in a contact below which its restitution is off by about half a percent or more.
 const FEW_STEPS: f64 = 20.0;
-/// The same for clumps, of which several spheres touch at once: a lab-scale pan of 50-sphere tablets gains energy at 30
-/// steps in a contact of one sphere, and runs quietly at 60.
-const FEW_STEPS_OF_CLUMPS: f64 = 50.0;
+/// The same for clumps, of which several spheres touch at once: a bed of 50-sphere tablets gains half of the energy it
+/// dissipates at 15 steps in a contact of one sphere, loses 2e-3 of it at 25 and below 1e-3 at 40 (docs/accuracy.md).
+const FEW_STEPS_OF_CLUMPS: f64 = 40.0;
 /// Farthest that a body may move in a step, of its smallest sphere's radius.
 const FARTHEST_TRAVEL: f64 = 0.1;
 /// Overlap over radius above which a contact is no longer small, as Hertz theory takes it.

@@ -11,7 +11,7 @@ use super::super::spec::{
 use super::{Allowed, Checker};
 
 /// Steps per contact unless the scene says otherwise.
-const STEPS_PER_CONTACT: f64 = 30.0;
+const STEPS_PER_CONTACT: f64 = 40.0;
 
 /// Expected approach speed unless the scene says otherwise, m/s: that of tablets landing in a lab-scale pan.
 const IMPACT_SPEED: f64 = 0.3;
