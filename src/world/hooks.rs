@@ -16,20 +16,48 @@ pub(super) struct ContactHooks {
 pub(super) const SURFACE: u128 = u128::MAX;
 
 impl ContactHooks {
+    /// Asks for two colliders whose boxes have met.
+    pub(super) fn met(&self, context: &PairFilterContext<'_>) {
+        let left_to_rapier = self.filter_contact_pair(context);
+        debug_assert!(left_to_rapier.is_none());
+    }
+
     /// The pairs seen since the last call, smaller index first, in any order.
     pub(super) fn take(&self) -> Vec<(u32, u32)> {
         std::mem::take(&mut *self.near.lock().expect("no hook panics"))
     }
 }
 
+/// Two colliders as hooks see them.
+pub(super) fn context<'a>(
+    bodies: &'a RigidBodySet,
+    colliders: &'a ColliderSet,
+    pair: ColliderPair,
+) -> PairFilterContext<'a> {
+    let parent = |collider: ColliderHandle| colliders.get(collider).and_then(Collider::parent);
+    PairFilterContext {
+        bodies,
+        colliders,
+        collider1: pair.collider1,
+        collider2: pair.collider2,
+        rigid_body1: parent(pair.collider1),
+        rigid_body2: parent(pair.collider2),
+    }
+}
+
+/// The tablets of a pair, smaller index first.
+pub(super) fn tablets(context: &PairFilterContext<'_>) -> Option<(u32, u32)> {
+    let index = |handle: Option<RigidBodyHandle>| {
+        handle.map(|h| context.bodies[h].user_data).filter(|data| *data != SURFACE).map(|data| data as u32)
+    };
+    let (a, b) = (index(context.rigid_body1)?, index(context.rigid_body2)?);
+    Some((a.min(b), a.max(b)))
+}
+
 impl PhysicsHooks for ContactHooks {
     fn filter_contact_pair(&self, context: &PairFilterContext<'_>) -> Option<SolverFlags> {
-        let index = |handle: Option<RigidBodyHandle>| {
-            handle.map(|h| context.bodies[h].user_data).filter(|data| *data != SURFACE)
-        };
-        if let (Some(a), Some(b)) = (index(context.rigid_body1), index(context.rigid_body2)) {
-            let (a, b) = (a as u32, b as u32);
-            self.near.lock().expect("no hook panics").push((a.min(b), a.max(b)));
+        if let Some(pair) = tablets(context) {
+            self.near.lock().expect("no hook panics").push(pair);
         }
         None
     }

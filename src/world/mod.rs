@@ -19,7 +19,7 @@ pub use impulse::ImpulseWorld;
 pub use motion::{Motion, Relative};
 
 use crate::shapes::{Clump, SurfaceMesh};
-use hooks::{ContactHooks, SURFACE};
+use hooks::{ContactHooks, SURFACE, context, tablets};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 
@@ -27,10 +27,7 @@ use rapier3d::prelude::*;
 pub struct World {
     bodies: RigidBodySet,
     colliders: ColliderSet,
-    islands: IslandManager,
     broad_phase: DefaultBroadPhase,
-    narrow_phase: NarrowPhase,
-    pipeline: PhysicsPipeline,
     hooks: ContactHooks,
     parameters: IntegrationParameters,
     tablets: Vec<(RigidBodyHandle, ColliderHandle)>,
@@ -74,10 +71,7 @@ impl World {
         Self {
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
-            islands: IslandManager::new(),
             broad_phase: DefaultBroadPhase::new(),
-            narrow_phase: NarrowPhase::new(),
-            pipeline: PhysicsPipeline::new(),
             hooks: ContactHooks::default(),
             parameters: IntegrationParameters {
                 dt: 0.0,
@@ -167,49 +161,48 @@ impl World {
 
     /// All pairs of bodies that can touch before [`World::must_search`] says so: smaller index first, sorted.
     ///
-    /// Rapier learns the poses of bodies that have used most of their margin, and its hooks report the pairs those
-    /// bodies are in; all other pairs stay as they were.
+    /// Rapier's broad phase learns the boxes of bodies that have used most of their margin and tells which pairs of boxes
+    /// have met or parted. Of those that met the hooks are asked at once: its narrow phase would ask them again for every
+    /// pair of a moved body, and be answered that there is nothing to do.
     pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> &[(u32, u32)] {
         for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
             self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
         }
-        let mut moved = vec![false; motions.len()];
         for (k, (body, collider)) in self.tablets.iter().enumerate() {
             let (motion, track) = (&motions[k], &mut self.tracks[k]);
             let now = motion.seen_from(carrier);
             if track.within(&now, tuning::EARLY) {
                 continue;
             }
-            moved[k] = true;
             let velocity = motion.velocity - carrier.velocity_at(&(motion.position - carrier.position));
             let speed = velocity.norm() + (motion.spin - carrier.spin).norm() * track.reach;
             let (least, most) = tuning::MARGIN;
             let size = track.bounding_radius;
             let margin = (speed * tuning::HORIZON).clamp(least * size, most * size);
-            self.bodies[*body].set_position(pose(&now), false);
-            self.colliders[*collider].set_contact_skin(margin as f32);
+            let pose = pose(&now);
+            self.bodies[*body].set_position(pose, false);
+            let bounds = self.colliders[*collider].shape().compute_aabb(&pose).loosened(margin as f32);
+            self.broad_phase.set_aabb(&self.parameters, *collider, bounds);
             track.known = now;
             track.margin = margin - tuning::ROUNDING;
             track.mark = self.odometers[k] + track.margin;
         }
-        self.pipeline.step(
-            Vec3::ZERO,
-            &self.parameters,
-            &mut self.islands,
-            &mut self.broad_phase,
-            &mut self.narrow_phase,
-            &mut self.bodies,
-            &mut self.colliders,
-            &mut ImpulseJointSet::new(),
-            &mut MultibodyJointSet::new(),
-            &mut SoftBodySet::new(),
-            &mut CCDSolver::new(),
-            &self.hooks,
-            &(),
-        );
-        self.near.retain(|(a, b)| !moved[*a as usize] && !moved[*b as usize]);
+        let mut events = Vec::new();
+        let Self { broad_phase, parameters, colliders, bodies, hooks, .. } = self;
+        broad_phase.update(parameters, colliders, bodies, &[], &[], &mut events);
+        let mut parted = Vec::new();
+        for event in events {
+            match event {
+                BroadPhasePairEvent::AddPair(pair) => hooks.met(&context(bodies, colliders, pair)),
+                BroadPhasePairEvent::DeletePair(pair) => {
+                    parted.extend(tablets(&context(bodies, colliders, pair)));
+                }
+            }
+        }
+        parted.sort_unstable();
+        self.near.retain(|pair| parted.binary_search(pair).is_err());
         self.near.extend(self.hooks.take());
-        self.near.sort_unstable();
+        self.near.sort();
         self.near.dedup();
         &self.near
     }

@@ -7,7 +7,7 @@ pub(super) const LENGTH_UNIT: f32 = 0.01;
 /// Time that a body's margin should last at its present speed against the carrier, s: the box of a fast body is widened
 /// more, so that all bodies need the next search at about the same time. Larger values give more pairs to watch, smaller
 /// ones more searches.
-pub(super) const HORIZON: f64 = 8e-3;
+pub(super) const HORIZON: f64 = 5e-3;
 
 /// Least and most margin of a body, as a share of its bounding radius.
 pub(super) const MARGIN: (f64, f64) = (0.05, 1.0);
