@@ -32,7 +32,7 @@ fn the_round_scene_is_the_papers_case() {
     assert_relative_eq!(baffles.tilt, PI / 9.0, max_relative = 1e-15);
     assert_eq!(scene.time.step, StepChoice::PerContact(40.0));
     assert_eq!(scene.time.settle, Settle::Auto { at_most: 20.0 });
-    assert_eq!((scene.time.duration, scene.time.frame_interval), (20.0, 0.02));
+    assert_eq!((scene.time.duration, scene.time.frame_interval), (60.0, 0.02));
     let spray = scene.spray.expect("has a spray");
     assert_eq!((spray.spanwise, spray.streamwise, spray.distance), (0.0762, 0.0381, 0.05));
     assert_eq!((spray.aim, spray.pixels), (Aim::Bed, [512, 256]));
