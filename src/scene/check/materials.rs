@@ -7,8 +7,8 @@ use super::super::spec::{MaterialSpec, Named, PairSpec};
 use super::{Allowed, Checker};
 use std::collections::BTreeSet;
 
-/// Shear moduli from foam to beyond diamond (5e11 Pa).
-const SHEAR_MODULUS: Allowed = Allowed::above(0.0).to(1e12);
+/// Shear moduli from foam to rigid walls (diamond: 5e11 Pa).
+const SHEAR_MODULUS: Allowed = Allowed::above(0.0).to(1e20);
 
 /// Poisson's ratio of a stable isotropic solid.
 const POISSON: Allowed = Allowed::above(-1.0).to(0.5);
