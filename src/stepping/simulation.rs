@@ -16,6 +16,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 /// A run: bodies, surfaces, contacts and the clock.
+#[derive(Clone)]
 pub struct Simulation {
     pub(super) scene: Scene,
     shapes: Vec<TabletShape>,

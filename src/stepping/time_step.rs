@@ -174,6 +174,7 @@ mod tests {
             inertia_per_mass: inertia,
             clump: Clump { spheres: clump },
             panels: None,
+            repairs: Vec::new(),
         };
         let (radius, mass, modulus, speed) = (2e-3, 1.3e-3, 2e6, 0.3);
         let sphere = |x: f64, y: f64| Sphere { center: Vector3::new(x, y, 0.0), radius };
