@@ -1,6 +1,7 @@
 //! V22, V23, V29: from slipping and from spinning to rolling, and spin about the normal. Homogeneous sphere with Coulomb
 //! friction: v' = 5v/7 after 2v/(7μg) and 12v²/(49μg); v' = 2rω/7 after 2rω/(7μg). Tolerance: speeds 1e-4, times 0.5 %, way
-//! 0.2 %. Nothing resists a spin about the normal: 1e-12. Deviation known: the tangential spring swings when slipping ends.
+//! 0.2 %. Times are taken without dashpots: at first touch a sphere sticks for an instant, while the tangential dashpot, which
+//! the cap on friction does not hold, takes up to 1 % of the slip. Nothing resists a spin about the normal: 1e-12. Deviation known: the tangential spring swings when slipping ends.
 
 use super::support::{near, run, set, watch};
 use pancoat::stepping::BodyState;
@@ -26,11 +27,11 @@ fn slipping_ends_in_rolling() {
     for friction in [0.2, 0.5, 1.0] {
         let (friction_time, way) = (2.0 / (7.0 * friction * 9.81), 12.0 / (49.0 * friction * 9.81));
         let set = set!["pairs[0].friction={friction}", "time.duration=Ms(200)"];
-        let history = watch("slip_to_roll", &set);
-        let (time, x) = rolls_from(&history, 1.0);
+        let elastic = [set.to_vec(), vec!["pairs[0].restitution=1".into()]].concat();
+        let (time, x) = rolls_from(&watch("slip_to_roll", &elastic), 1.0);
         near(time, friction_time, 5e-3, "time");
         near(x, way, 2e-3, "way");
-        let end = history.last().expect("has an end").1[0];
+        let end = run("slip_to_roll", &set)[0];
         near(end.velocity.x, 5.0 / 7.0, 1e-4, "speed");
         near(-end.spin.z, 5.0 / 7.0 / 2e-3, 2e-3, "spin");
     }
@@ -38,9 +39,13 @@ fn slipping_ends_in_rolling() {
 
 #[test]
 fn spinning_ends_in_rolling() {
-    let history = watch("spin_to_roll", &[]);
-    near(rolls_from(&history, 0.2).0, 11.649_92e-3, 5e-3, "time");
-    near(history.last().expect("has an end").1[0].velocity.x, 0.057_142_9, 1e-3, "speed");
+    near(
+        rolls_from(&watch("spin_to_roll", &set!["pairs[0].restitution=1"]), 0.2).0,
+        11.649_92e-3,
+        5e-3,
+        "time",
+    );
+    near(run("spin_to_roll", &[])[0].velocity.x, 0.057_142_9, 1e-3, "speed");
 }
 
 #[test]
