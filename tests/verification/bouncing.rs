@@ -37,7 +37,7 @@ fn elastic_bounces_keep_their_height() {
     }
 }
 
-/// Set-up of MFiX DEM03 with Hertz contacts, 600 steps in a contact at 10 m/s (velocity Verlet lets the energy waver within a
+/// Set-up of MFiX DEM03 with Hertz contacts, 800 steps in a contact at 10 m/s (velocity Verlet lets the energy waver within a
 /// contact by the square of the step, so that 100 steps cannot do): kinetic plus 8/15 E* √R* δ^(5/2) of the three contacts stays to 1e-6.
 #[test]
 fn two_compressed_spheres_keep_their_energy() {
