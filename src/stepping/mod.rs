@@ -6,11 +6,8 @@ mod error;
 mod filling;
 mod fingerprint;
 mod frame;
-<<<<<<< HEAD
-mod impulse;
-=======
 mod guard;
->>>>>>> 10ca5ad (Bodies from a table of poses; guards at the start and at every step; --force; the last good state in bodies.csv)
+mod impulse;
 mod settling;
 mod simulation;
 mod stages;

@@ -29,13 +29,9 @@ pub struct Simulation {
     pub(super) step: u64,
     world: World,
     pub(super) field: ContactField,
-<<<<<<< HEAD
     /// What moves bodies and solves contacts in place of `world` and `field`, if the scene says so.
     impulses: Option<ImpulseWorld>,
     pub(super) bodies: Vec<Body>,
-=======
-    bodies: Vec<Body>,
->>>>>>> 10ca5ad (Bodies from a table of poses; guards at the start and at every step; --force; the last good state in bodies.csv)
     /// Shape of each body.
     pub(super) kinds: Vec<usize>,
     pub(super) motions: Vec<Motion>,
@@ -49,14 +45,10 @@ pub struct Simulation {
     torque_sum: f64,
     torque_steps: u64,
     deepest: f64,
-<<<<<<< HEAD
-    tally: Tally,
     pub(super) audit: Option<EnergyAudit>,
-=======
     pub(super) tally: Tally,
     /// Time, s, and bodies of the last frame that passed all guards.
     pub(super) good: (f64, Vec<BodyState>),
->>>>>>> 10ca5ad (Bodies from a table of poses; guards at the start and at every step; --force; the last good state in bodies.csv)
     pub(super) stopwatch: Stopwatch,
 }
 
@@ -102,11 +94,8 @@ impl Simulation {
             torque_steps: 0,
             deepest: 0.0,
             tally: Tally::default(),
-<<<<<<< HEAD
             audit: None,
-=======
             good: (0.0, Vec::new()),
->>>>>>> 10ca5ad (Bodies from a table of poses; guards at the start and at every step; --force; the last good state in bodies.csv)
             stopwatch: Stopwatch::default(),
         };
         simulation.add_surfaces()?;
@@ -119,8 +108,10 @@ impl Simulation {
             };
             simulation.add_body(body.shape, body.material, body.mass, &state);
         }
-        simulation.feel(0.0);
-        simulation.guard_start()?;
+        if simulation.impulses.is_none() {
+            simulation.feel(0.0);
+            simulation.guard_start()?;
+        }
         simulation.note_good();
         Ok(simulation)
     }
@@ -214,6 +205,10 @@ impl Simulation {
         for body in &mut self.bodies {
             body.kick(0.5 * dt);
         }
+        if let Some(audit) = &mut self.audit {
+            let bodies = (&self.bodies[..], &self.motions[..]);
+            audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
+        }
         self.note_step();
         self.guard_step()
     }
@@ -235,15 +230,6 @@ impl Simulation {
         for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
             (body.force, body.torque) = (wrench.force, wrench.torque);
         }
-<<<<<<< HEAD
-        if let Some(audit) = &mut self.audit {
-            let bodies = (&self.bodies[..], &self.motions[..]);
-            audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
-        }
-        self.note_step();
-        self.guard()
-=======
->>>>>>> 10ca5ad (Bodies from a table of poses; guards at the start and at every step; --force; the last good state in bodies.csv)
     }
 
     fn advance_by_impulses(&mut self, dt: f64) {

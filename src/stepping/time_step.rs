@@ -1,14 +1,9 @@
 //! The time step and what it means.
 
 use crate::contact::PairLaw;
-<<<<<<< HEAD
 use crate::scene::{ContactMode, Scene, StepChoice};
-use crate::shapes::TabletShape;
-=======
-use crate::scene::{Scene, StepChoice};
 use crate::shapes::{Sphere, TabletShape};
 use nalgebra::Vector3;
->>>>>>> 10ca5ad (Bodies from a table of poses; guards at the start and at every step; --force; the last good state in bodies.csv)
 
 /// 4 √π Γ(2/5) / (5 Γ(9/10)) · (15/16)^(2/5), dimensionless: the constant of the Hertz contact time.
 const CONTACT_TIME: f64 = 2.868_265_699;

@@ -67,14 +67,12 @@ impl Default for World {
 }
 
 impl Clone for World {
-    /// A world that goes on like this one; Rapier's workspace is made anew.
+    /// A world that goes on like this one.
     fn clone(&self) -> Self {
         Self {
             bodies: self.bodies.clone(),
             colliders: self.colliders.clone(),
-            islands: self.islands.clone(),
             broad_phase: self.broad_phase.clone(),
-            narrow_phase: self.narrow_phase.clone(),
             tablets: self.tablets.clone(),
             surfaces: self.surfaces.clone(),
             tracks: self.tracks.clone(),
