@@ -38,7 +38,7 @@ pub(super) enum Failure {
         path.display()
     )]
     Interval { path: PathBuf, found: f64, expected: f64 },
-    #[error("refused: {0}")]
+    #[error("refused: {0}; --force runs it all the same")]
     Refused(#[from] Refusal),
     #[error(transparent)]
     Shape(#[from] ShapeError),
@@ -85,7 +85,11 @@ impl Failure {
             | Self::Shape(_)
             | Self::Folder(_)
             | Self::Report(_)
-            | Self::Simulation(SimulationError::Shape(_) | SimulationError::Full { .. }) => 2,
+            | Self::Simulation(
+                SimulationError::Shape(_)
+                | SimulationError::Full { .. }
+                | SimulationError::StartOverlap { .. },
+            ) => 2,
             _ => 1,
         })
     }

@@ -1,6 +1,7 @@
 //! What is refused before a run, and what is warned of before and after it.
 
-use crate::scene::{ContactMode, Scene};
+use super::pace;
+use crate::scene::{ContactMode, Scene, Settle};
 use crate::shapes::TabletShape;
 use crate::stepping::TimeStep;
 
@@ -11,6 +12,10 @@ const FEW_STEPS: f64 = 20.0;
 /// The same for clumps, of which several spheres touch at once: a bed of 50-sphere tablets gains half of the energy it
 /// dissipates at 15 steps in a contact of one sphere, loses 2e-3 of it at 25 and below 1e-3 at 40 (docs/accuracy.md).
 const FEW_STEPS_OF_CLUMPS: f64 = 40.0;
+/// Step times the frequency of the stiffest landing above which velocity Verlet is unstable.
+const UNSTABLE: f64 = 2.0;
+/// Steps of a run that nobody asks for by intention.
+const MOST_STEPS: f64 = 1e9;
 /// Farthest that a body may move in a step, of its smallest sphere's radius.
 const FARTHEST_TRAVEL: f64 = 0.1;
 /// Overlap over radius above which a contact is no longer small, as Hertz theory takes it.
@@ -27,6 +32,16 @@ pub(super) enum Refusal {
         "a body moves by {0:.2} of a sphere's radius in a step, at most {FARTHEST_TRAVEL} is safe: lower time.step"
     )]
     Travel(f64),
+    #[error(
+        "several spheres of a clump that land at once swing by {0:.2} rad in a step, above {UNSTABLE} nothing is stable: \
+         lower time.step or give the clump fewer spheres"
+    )]
+    Stiffness(f64),
+    #[error(
+        "the run would take {steps:.1e} steps, about {hours:.0} hours: shorten time.duration, raise time.step, or lower \
+         shear_modulus"
+    )]
+    Steps { steps: f64, hours: f64 },
 }
 
 /// Something that limits confidence in a result, with advice.
@@ -55,9 +70,30 @@ pub(super) fn refuse(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> 
     if step.steps_per_contact() < FEWEST_STEPS {
         return Err(Refusal::StepsPerContact(step.steps_per_contact()));
     }
+    if step.stiffness_bound() > UNSTABLE {
+        return Err(Refusal::Stiffness(step.stiffness_bound()));
+    }
     let smallest = shapes.iter().map(|s| s.clump.smallest_radius()).fold(f64::INFINITY, f64::min);
-    let travel = scene.time.impact_speed * step.step / smallest;
-    if travel > FARTHEST_TRAVEL { Err(Refusal::Travel(travel)) } else { Ok(()) }
+    let fastest = scene.bodies.iter().map(|b| b.velocity.norm()).fold(scene.time.impact_speed, f64::max);
+    let travel = fastest * step.step / smallest;
+    if travel > FARTHEST_TRAVEL {
+        return Err(Refusal::Travel(travel));
+    }
+    let steps = simulated_time(scene) / step.step;
+    if steps > MOST_STEPS {
+        let hours = pace::seconds_per_second(scene, shapes, step.step) * simulated_time(scene) / 3600.0;
+        return Err(Refusal::Steps { steps, hours });
+    }
+    Ok(())
+}
+
+/// Longest time that a run simulates, settling included, s.
+fn simulated_time(scene: &Scene) -> f64 {
+    let settle = match scene.time.settle {
+        Settle::Auto { at_most } => at_most,
+        Settle::For(time) => time,
+    };
+    settle + scene.time.duration
 }
 
 /// Warnings of a step, and of the largest overlap over radius, expected or met; none with impulses.
@@ -92,6 +128,7 @@ mod tests {
             contact_time: 1e-4 * n,
             rayleigh_time: 1e-3,
             impact_overlap: 0.0,
+            stiffest: 0.0,
         };
         assert!(warnings(ContactMode::HertzMindlin, &[], &step(30.0), 0.02).is_empty());
         assert!(matches!(
@@ -107,6 +144,10 @@ mod tests {
         assert!(warnings(ContactMode::HertzMindlin, &shapes, &step(30.0), 0.02).is_empty());
         assert_eq!(refuse(&scene, &shapes, &step(30.0)), Ok(()));
         assert!(matches!(refuse(&scene, &shapes, &step(7.9)), Err(Refusal::StepsPerContact(_))));
+        let stiff = TimeStep { stiffest: 2.1e4, ..step(30.0) };
+        assert_eq!(refuse(&scene, &shapes, &stiff), Err(Refusal::Stiffness(2.1)));
+        let tiny = TimeStep { step: 1e-9, ..step(30.0) };
+        assert!(matches!(refuse(&scene, &shapes, &tiny), Err(Refusal::Steps { steps, .. }) if steps > 1e10));
         let long = TimeStep { step: 1e-2, contact_time: 1.0, ..step(1.0) };
         assert!(
             matches!(refuse(&scene, &shapes, &long), Err(Refusal::Travel(t)) if (t - 0.457).abs() < 1e-3)

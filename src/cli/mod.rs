@@ -5,6 +5,7 @@
 mod accuracy;
 mod args;
 mod bed;
+mod bodies;
 mod check;
 mod coat;
 mod coating;

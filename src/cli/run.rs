@@ -5,7 +5,7 @@ use super::bed::CoatedBed;
 use super::coating::Coating;
 use super::failure::Failure;
 use super::watch::Watch;
-use super::{bed, guards, print_line};
+use super::{bed, bodies, guards, print_line};
 use crate::observers::statistics::BedStatistics;
 use crate::observers::{Backend, Observer, Packing, RecordedAim, Recorder, Recording};
 use crate::report::{
@@ -29,7 +29,11 @@ pub(super) fn run(args: &RunArgs) -> Result<(), Failure> {
         rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()?;
     }
     let mut simulation = Simulation::new(&scene)?;
-    guards::refuse(&scene, simulation.shapes(), simulation.time_step())?;
+    let refusal = guards::refuse(&scene, simulation.shapes(), simulation.time_step());
+    match refusal {
+        Err(refusal) if args.force => eprintln!("warning: forced: {refusal}"),
+        refusal => refusal?,
+    }
 
     let default = Path::new("runs").join(args.scene.name());
     let directory = RunDir::create(args.out.as_deref().unwrap_or(&default), text.text())?;
@@ -165,6 +169,7 @@ impl Session {
             phases: simulation.stopwatch().seconds().map(|(name, s)| (name.to_owned(), s)).into(),
         };
         self.directory.write_record(&self.record)?;
+        self.directory.write_table("bodies.csv", bodies::rows(simulation))?;
         for warning in &self.record.warnings {
             self.watch.say(&format!("warning: {warning}"));
         }

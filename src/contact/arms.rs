@@ -33,7 +33,7 @@ pub(super) fn arm(arms: &Arms, sphere: usize) -> Vector3<f32> {
 }
 
 /// How far each sphere of a body reaches along a direction.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Extents {
     each: Vec<f32>,
     /// The farthest, m.

@@ -67,7 +67,7 @@ struct Meeting {
 }
 
 /// Contacts of many bodies, in blocks of one law each.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Batch {
     blocks: Vec<Block>,
     /// How many of the blocks are in use: the others, and lanes left over, hold contacts of the past.

@@ -61,6 +61,7 @@ pub struct Tally {
 }
 
 /// Every body, surface, list and spring.
+#[derive(Clone)]
 pub struct ContactField {
     outlines: Vec<Outline>,
     bodies: Vec<BodyConstants>,

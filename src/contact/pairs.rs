@@ -77,7 +77,7 @@ impl Setting<'_> {
 }
 
 /// Memory that one pair after another works in.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Scratch {
     extents: [Extents; 2],
     near: Vec<(u16, Vector3<f32>, f32)>,

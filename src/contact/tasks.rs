@@ -19,7 +19,7 @@ use nalgebra::Vector3;
 const BATCH: usize = 64;
 
 /// What one task works in, and what it found in the last step.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Desk {
     pub scratch: Scratch,
     batch: Batch,

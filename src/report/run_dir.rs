@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Files that a run makes beside its record and its scene; removed when it starts anew.
-const PRODUCTS: [&str; 6] =
-    ["series.csv", "tablets.csv", "panels.csv", "coating.vtp", "bed.png", "report.html"];
+const PRODUCTS: [&str; 7] =
+    ["bodies.csv", "series.csv", "tablets.csv", "panels.csv", "coating.vtp", "bed.png", "report.html"];
 
 /// The folder of a run, held by this process alone.
 #[derive(Debug)]

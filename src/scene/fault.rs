@@ -228,6 +228,16 @@ pub enum FaultKind {
     /// A bound on the error of a clump that is not fitted.
     #[error("a Sphere is one sphere and a Clump as it is given: leave `spheres` out")]
     NotFitted,
+    /// A pose table that cannot be used.
+    #[error("{}:{line}: {what}", path.display())]
+    Poses {
+        /// The table.
+        path: PathBuf,
+        /// Line, from 1; 0 for the file as a whole.
+        line: u64,
+        /// What is wrong.
+        what: String,
+    },
     /// A recipe without a surface in a sprayed scene.
     #[error("a Clump has no surface to coat; give a solid's dimensions or leave out the spray")]
     NoSurface,

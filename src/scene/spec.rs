@@ -182,6 +182,7 @@ pub(super) struct BodySpec {
     pub(super) orientation: Option<OrientationSpec>,
     pub(super) velocity: Option<Triple<Speed>>,
     pub(super) spin: Option<Triple<AngularSpeed>>,
+    pub(super) poses: Option<String>,
 }
 
 /// `(x, y, z)` without a unit.

@@ -17,6 +17,21 @@ pub enum SimulationError {
         /// Tablets asked for.
         wanted: usize,
     },
+    /// Bodies begin deep in each other.
+    #[error(
+        "body {body} and {partner} overlap by {ratio:.2} of a sphere's radius at the start, at most {most} is allowed: \
+         move them apart"
+    )]
+    StartOverlap {
+        /// Index of the body.
+        body: usize,
+        /// What it overlaps.
+        partner: Partner,
+        /// Overlap over radius, dimensionless.
+        ratio: f64,
+        /// Largest allowed.
+        most: f64,
+    },
     /// A sphere is as good as through another.
     #[error(
         "body {body} and {partner} overlap by {ratio:.2} of a sphere's radius at step {step}, {time:.6} s: \
@@ -34,21 +49,47 @@ pub enum SimulationError {
         /// Overlap over radius, dimensionless.
         ratio: f64,
     },
+    /// A body is too fast for its contacts to be met.
+    #[error(
+        "body {body} moves by {ratio:.2} of a sphere's radius in step {step}, {time:.6} s{contact}: lower time.step"
+    )]
+    TooFast {
+        /// Index of the body.
+        body: usize,
+        /// Number of the step.
+        step: u64,
+        /// Simulated time, s.
+        time: f64,
+        /// Distance in a step over radius, dimensionless.
+        ratio: f64,
+        /// The deepest contact of the step.
+        contact: DeepestContact,
+    },
     /// A body's state is not a number.
-    #[error("body {body} has no finite position or velocity any more at {time:.6} s: lower time.step")]
+    #[error(
+        "body {body} has no finite position or velocity any more at step {step}, {time:.6} s{contact}: lower time.step"
+    )]
     NotFinite {
         /// Index of the body.
         body: usize,
+        /// Number of the step.
+        step: u64,
         /// Simulated time, s.
         time: f64,
+        /// The deepest contact of the step.
+        contact: DeepestContact,
     },
-    /// A body has left the drum.
+    /// A body has left the drum, or everything.
     #[error(
-        "body {body} has left the drum at {time:.6} s: lower time.step or raise the wall's shear modulus"
+        "body {body} has left the {place} at step {step}, {time:.6} s: lower time.step or raise the wall's shear modulus"
     )]
     Lost {
         /// Index of the body.
         body: usize,
+        /// What it has left.
+        place: &'static str,
+        /// Number of the step.
+        step: u64,
         /// Simulated time, s.
         time: f64,
     },
@@ -58,4 +99,17 @@ pub enum SimulationError {
         /// Simulated time, s.
         time: f64,
     },
+}
+
+/// The deepest contact of a step, if anything touches: a body and what it touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DeepestContact(pub Option<(usize, Partner)>);
+
+impl std::fmt::Display for DeepestContact {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some((body, partner)) => write!(f, ", deepest contact body {body} with {partner}"),
+            None => f.write_str(", without any contact"),
+        }
+    }
 }

@@ -6,6 +6,7 @@ mod error;
 mod filling;
 mod fingerprint;
 mod frame;
+mod guard;
 mod impulse;
 mod settling;
 mod simulation;

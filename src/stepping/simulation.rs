@@ -15,25 +15,25 @@ use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// Overlap over radius above which a sphere is as good as through.
-const MOST_OVERLAP: f64 = 1.0;
-
 /// A run: bodies, surfaces, contacts and the clock.
+#[derive(Clone)]
 pub struct Simulation {
     pub(super) scene: Scene,
     shapes: Vec<TabletShape>,
+    /// Of each shape: farthest sphere centre and smallest radius, m.
+    pub(super) reaches: Vec<(f64, f64)>,
     drum: Option<SurfaceMesh>,
     /// What had to be put right in mesh files.
     repairs: Vec<String>,
-    time_step: TimeStep,
-    step: u64,
+    pub(super) time_step: TimeStep,
+    pub(super) step: u64,
     world: World,
     pub(super) field: ContactField,
     /// What moves bodies and solves contacts in place of `world` and `field`, if the scene says so.
     impulses: Option<ImpulseWorld>,
     pub(super) bodies: Vec<Body>,
     /// Shape of each body.
-    kinds: Vec<usize>,
+    pub(super) kinds: Vec<usize>,
     pub(super) motions: Vec<Motion>,
     surfaces: Vec<Motion>,
     /// How many of the surfaces are meshes; they come first.
@@ -45,8 +45,10 @@ pub struct Simulation {
     torque_sum: f64,
     torque_steps: u64,
     deepest: f64,
-    tally: Tally,
     pub(super) audit: Option<EnergyAudit>,
+    pub(super) tally: Tally,
+    /// Time, s, and bodies of the last frame that passed all guards.
+    pub(super) good: (f64, Vec<BodyState>),
     pub(super) stopwatch: Stopwatch,
 }
 
@@ -54,7 +56,7 @@ impl Simulation {
     /// Builds everything a scene needs; free bodies are placed, batches wait for [`Simulation::fill`].
     ///
     /// # Errors
-    /// A shape that cannot be built.
+    /// A shape that cannot be built, or bodies that begin deep in each other or in a wall.
     pub fn new(scene: &Scene) -> Result<Self, SimulationError> {
         let shapes = scene
             .shapes
@@ -72,6 +74,7 @@ impl Simulation {
             repairs: shapes.iter().flat_map(of_shape).chain(of_drum).collect(),
             drum: drum.map(|surface| surface.mesh),
             scene: scene.clone(),
+            reaches: shapes.iter().map(|s| (s.clump.reach(), s.clump.smallest_radius())).collect(),
             shapes,
             step: 0,
             world: World::new(),
@@ -92,6 +95,7 @@ impl Simulation {
             deepest: 0.0,
             tally: Tally::default(),
             audit: None,
+            good: (0.0, Vec::new()),
             stopwatch: Stopwatch::default(),
         };
         simulation.add_surfaces()?;
@@ -104,6 +108,11 @@ impl Simulation {
             };
             simulation.add_body(body.shape, body.material, body.mass, &state);
         }
+        if simulation.impulses.is_none() {
+            simulation.feel(0.0);
+            simulation.guard_start()?;
+        }
+        simulation.note_good();
         Ok(simulation)
     }
 
@@ -192,6 +201,20 @@ impl Simulation {
         }
         self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
+        self.feel(dt);
+        for body in &mut self.bodies {
+            body.kick(0.5 * dt);
+        }
+        if let Some(audit) = &mut self.audit {
+            let bodies = (&self.bodies[..], &self.motions[..]);
+            audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
+        }
+        self.note_step();
+        self.guard_step()
+    }
+
+    /// Forces and torques at the present time level; springs advance by `dt` s.
+    fn feel(&mut self, dt: f64) {
         let carrier = self.carrier();
         if self.world.must_search(&self.motions, &carrier) {
             let near = self.world.search(&self.motions, &self.surfaces[..self.meshes], &carrier);
@@ -206,14 +229,7 @@ impl Simulation {
         self.stopwatch.lap(Phase::Contact);
         for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
             (body.force, body.torque) = (wrench.force, wrench.torque);
-            body.kick(0.5 * dt);
         }
-        if let Some(audit) = &mut self.audit {
-            let bodies = (&self.bodies[..], &self.motions[..]);
-            audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
-        }
-        self.note_step();
-        self.guard()
     }
 
     fn advance_by_impulses(&mut self, dt: f64) {
@@ -265,39 +281,13 @@ impl Simulation {
         self.deepest = self.deepest.max(self.tally.deepest);
     }
 
-    /// Stops a run that has gone wrong while its last good state is still at hand.
-    fn guard(&self) -> Result<(), SimulationError> {
-        if self.tally.deepest > MOST_OVERLAP {
-            let (body, partner) = self.field.deepest().expect("a contact overlaps");
-            let (step, time, ratio) = (self.step, self.clock(), self.tally.deepest);
-            return Err(SimulationError::Overlap { body, partner, step, time, ratio });
-        }
-        Ok(())
-    }
-
-    /// Checks that every body is finite and inside the drum; done at every frame.
-    pub(super) fn check_bodies(&self) -> Result<(), SimulationError> {
-        for (body, motion) in self.motions.iter().enumerate() {
-            if !(motion.position.iter().chain(&motion.velocity).chain(&motion.spin)).all(|x| x.is_finite()) {
-                return Err(SimulationError::NotFinite { body, time: self.clock() });
-            }
-            if let Some(drum) = &self.scene.drum {
-                let p = motion.position;
-                if p.xy().norm() > drum.radius_at(p.z) || p.z.abs() > 0.5 * drum.width {
-                    return Err(SimulationError::Lost { body, time: self.clock() });
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Advances by one frame interval.
     pub(super) fn advance_frame(&mut self) -> Result<(), SimulationError> {
         self.torque_sum = 0.0;
         self.torque_steps = 0;
         // All steps inside the pool: handing work to it from outside costs more than a step does.
         rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
-        self.check_bodies()
+        self.guard_frame()
     }
 
     /// Simulated time since the start, s.

@@ -15,6 +15,7 @@ use std::f64::consts::{PI, TAU};
 const HULL_POINTS: usize = 60;
 
 /// Gives every contact the friction and restitution of its pair of materials.
+#[derive(Clone)]
 struct PairHooks(PairTable);
 
 impl PhysicsHooks for PairHooks {
@@ -42,6 +43,25 @@ pub struct ImpulseWorld {
     hooks: PairHooks,
     tablets: Vec<RigidBodyHandle>,
     surfaces: Vec<RigidBodyHandle>,
+}
+
+impl Clone for ImpulseWorld {
+    /// A world that goes on like this one; Rapier's workspace is made anew.
+    fn clone(&self) -> Self {
+        Self {
+            bodies: self.bodies.clone(),
+            colliders: self.colliders.clone(),
+            islands: self.islands.clone(),
+            broad_phase: self.broad_phase.clone(),
+            narrow_phase: self.narrow_phase.clone(),
+            pipeline: PhysicsPipeline::new(),
+            parameters: self.parameters,
+            gravity: self.gravity,
+            hooks: self.hooks.clone(),
+            tablets: self.tablets.clone(),
+            surfaces: self.surfaces.clone(),
+        }
+    }
 }
 
 impl ImpulseWorld {

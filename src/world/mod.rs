@@ -39,6 +39,7 @@ pub struct World {
 }
 
 /// What a tablet's box is worth.
+#[derive(Clone)]
 struct Track {
     /// Pose that Rapier knows, seen from the carrier.
     known: Relative,
@@ -62,6 +63,23 @@ impl Track {
 impl Default for World {
     fn default() -> Self {
         Self::new()
+    }
+}
+
+impl Clone for World {
+    /// A world that goes on like this one.
+    fn clone(&self) -> Self {
+        Self {
+            bodies: self.bodies.clone(),
+            colliders: self.colliders.clone(),
+            broad_phase: self.broad_phase.clone(),
+            tablets: self.tablets.clone(),
+            surfaces: self.surfaces.clone(),
+            tracks: self.tracks.clone(),
+            odometers: self.odometers.clone(),
+            near: self.near.clone(),
+            ..Self::new()
+        }
     }
 }
 

@@ -7,8 +7,8 @@ use super::super::spec::{MaterialSpec, Named, PairSpec};
 use super::{Allowed, Checker};
 use std::collections::BTreeSet;
 
-/// Shear moduli from foam to beyond diamond (5e11 Pa).
-const SHEAR_MODULUS: Allowed = Allowed::above(0.0).to(1e12);
+/// Shear moduli from foam to rigid walls (diamond: 5e11 Pa).
+const SHEAR_MODULUS: Allowed = Allowed::above(0.0).to(1e20);
 
 /// Poisson's ratio of a stable isotropic solid.
 const POISSON: Allowed = Allowed::above(-1.0).to(0.5);
@@ -73,9 +73,14 @@ pub(super) fn all_pairs_given(c: &mut Checker<'_>, scene: &Scene, given: &BTreeS
     if sections.iter().any(|section| c.told(&at.field(section))) {
         return; // Which pairs occur is not known yet.
     }
-    let moving: Vec<usize> = (scene.batches.iter().flat_map(|b| vec![b.material; b.count.min(2)]))
-        .chain(scene.bodies.iter().map(|b| b.material))
-        .collect();
+    // Two of a material already touch each other.
+    let mut moving: Vec<usize> = Vec::new();
+    let bodies = scene.bodies.iter().map(|b| b.material);
+    for m in scene.batches.iter().flat_map(|b| vec![b.material; b.count.min(2)]).chain(bodies) {
+        if moving.iter().filter(|known| **known == m).count() < 2 {
+            moving.push(m);
+        }
+    }
     let fixed = scene.drum.iter().map(|d| d.material).chain(scene.boundaries.iter().map(|b| b.material));
     let fixed: Vec<usize> = fixed.collect();
     let mut touching = BTreeSet::new();

@@ -10,6 +10,7 @@ mod fit;
 mod materials;
 mod moving;
 mod pattern;
+mod poses;
 mod recipe;
 mod shapes;
 mod size;

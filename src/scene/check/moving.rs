@@ -4,7 +4,7 @@ use super::super::fault::FaultKind;
 use super::super::model::{Batch, FreeBody};
 use super::super::path::KeyPath;
 use super::super::spec::{BatchSpec, BodySpec, OrientationSpec};
-use super::{Allowed, Checker};
+use super::{Allowed, Checker, poses};
 use crate::units::{AngularSpeed, Number, Speed, Triple};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
@@ -15,11 +15,11 @@ const BODY_MASS: Allowed = Allowed::above(0.0).to(1e3);
 const COUNT: Allowed = Allowed::from(1.0).to(1e7);
 
 /// Farthest position, m; beyond it single precision in the near-pair search is too coarse.
-const FARTHEST: f64 = 100.0;
+pub(super) const FARTHEST: f64 = 100.0;
 
 /// Highest speed, m/s, and highest spin, rad/s, that anything starts with.
-const FASTEST: f64 = 1e3;
-const FASTEST_SPIN: f64 = 1e5;
+pub(super) const FASTEST: f64 = 1e3;
+pub(super) const FASTEST_SPIN: f64 = 1e5;
 
 pub(super) fn batches(c: &mut Checker<'_>, specs: Vec<BatchSpec>) -> Vec<Batch> {
     let number = |(i, spec)| batch(c, &Checker::item("batches", i), spec);
@@ -52,18 +52,53 @@ fn batch(c: &mut Checker<'_>, at: &KeyPath, spec: BatchSpec) -> Batch {
 }
 
 pub(super) fn bodies(c: &mut Checker<'_>, specs: Vec<BodySpec>) -> Vec<FreeBody> {
-    let number = |(i, spec)| body(c, &Checker::item("bodies", i), spec);
-    specs.into_iter().enumerate().map(number).collect()
+    let mut bodies = Vec::new();
+    for (i, spec) in specs.into_iter().enumerate() {
+        let at = Checker::item("bodies", i);
+        match spec.poses.clone() {
+            Some(file) => bodies.extend(in_file(c, &at, file, spec)),
+            None => {
+                c.need(&at.field("position"), spec.position, "a position such as Mm(x, y, z)");
+                bodies.push(body(c, &at, spec));
+            }
+        }
+    }
+    bodies
+}
+
+/// One body for each row of a pose table.
+fn in_file(c: &mut Checker<'_>, at: &KeyPath, file: String, spec: BodySpec) -> Vec<FreeBody> {
+    let placed = [
+        ("position", spec.position.is_some()),
+        ("orientation", spec.orientation.is_some()),
+        ("velocity", spec.velocity.is_some()),
+        ("spin", spec.spin.is_some()),
+    ];
+    if let Some((key, _)) = placed.into_iter().find(|(_, given)| *given) {
+        c.fault(at, FaultKind::EitherOr("poses", key));
+    }
+    let one = body(c, at, spec);
+    let at = at.field("poses");
+    let path = c.file(&at, Some(file));
+    if c.told(&at) {
+        return Vec::new();
+    }
+    match poses::read(&path) {
+        Ok(poses) => poses.into_iter().map(|pose| pose.placed(&one)).collect(),
+        Err(fault) => {
+            c.fault(&at, fault);
+            Vec::new()
+        }
+    }
 }
 
 fn body(c: &mut Checker<'_>, at: &KeyPath, spec: BodySpec) -> FreeBody {
-    let position = c.need(&at.field("position"), spec.position, "a position such as Mm(x, y, z)");
     let (velocity, spin) = motion(c, at, spec.velocity, spec.spin);
     FreeBody {
         shape: c.name(&at.field("shape"), spec.shape, "shape", "shapes"),
         material: c.name(&at.field("material"), spec.material, "material", "materials"),
         mass: c.number(&at.field("mass"), spec.mass, BODY_MASS),
-        position: position.map_or_else(Vector3::zeros, |p| c.triple(&at.field("position"), p, FARTHEST)),
+        position: spec.position.map_or_else(Vector3::zeros, |p| c.triple(&at.field("position"), p, FARTHEST)),
         orientation: spec
             .orientation
             .map_or_else(UnitQuaternion::identity, |o| orientation(c, &at.field("orientation"), o)),

@@ -36,7 +36,7 @@ pub(super) fn time(c: &mut Checker<'_>, spec: TimeSpec, with_drum: bool) -> Time
     let duration = c.number(&at.field("duration"), spec.duration, Allowed::above(0.0).to(1e6));
     let longest = if duration.is_nan() { 1e6 } else { duration };
     let default = FRAME_INTERVAL.min(longest);
-    let frames = Allowed::from(1e-6).to(longest);
+    let frames = Allowed::from(1e-12).to(longest);
     let frame_interval = c.number_or(&at.field("frame_interval"), spec.frame_interval, default, frames);
     let longest = if frame_interval.is_nan() { longest } else { frame_interval };
     let path = at.field("step");

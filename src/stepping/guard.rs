@@ -1,0 +1,79 @@
+//! What stops a run that has gone wrong, while its last good state is still at hand.
+
+use super::error::{DeepestContact, SimulationError};
+use super::frame::BodyState;
+use super::simulation::Simulation;
+
+/// Overlap over radius up to which bodies may begin.
+const MOST_START_OVERLAP: f64 = 0.5;
+/// Overlap over radius above which a sphere is as good as through.
+const MOST_OVERLAP: f64 = 0.75;
+/// Farthest that any sphere centre may move in a step, of its body's smallest radius. A centre on one side of a wall and
+/// on the other side a step later has then been within a quarter of the radius, so that [`MOST_OVERLAP`] sees it.
+const MOST_TRAVEL: f64 = 0.5;
+/// Farthest position, m: beyond it the near-pair search, in single precision, is too coarse.
+const FARTHEST: f64 = 100.0;
+
+impl Simulation {
+    /// Refuses bodies that begin deep in each other or in a wall: their springs would shoot them out.
+    pub(super) fn guard_start(&self) -> Result<(), SimulationError> {
+        let ratio = self.tally.deepest;
+        match self.field.deepest() {
+            Some((body, partner)) if ratio > MOST_START_OVERLAP => {
+                Err(SimulationError::StartOverlap { body, partner, ratio, most: MOST_START_OVERLAP })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Overlap, travel and NaN, at every step.
+    pub(super) fn guard_step(&self) -> Result<(), SimulationError> {
+        let (step, time, dt) = (self.step, self.clock(), self.time_step.step);
+        if self.tally.deepest > MOST_OVERLAP
+            && let Some((body, partner)) = self.field.deepest()
+        {
+            return Err(SimulationError::Overlap { body, partner, step, time, ratio: self.tally.deepest });
+        }
+        for (body, (motion, &kind)) in self.motions.iter().zip(&self.kinds).enumerate() {
+            let (reach, smallest) = self.reaches[kind];
+            let travel = (motion.velocity.norm() + motion.spin.norm() * reach) * dt;
+            // Also false for NaN.
+            if travel <= MOST_TRAVEL * smallest {
+                continue;
+            }
+            let contact = DeepestContact(self.field.deepest());
+            return Err(if travel.is_finite() {
+                SimulationError::TooFast { body, step, time, ratio: travel / smallest, contact }
+            } else {
+                SimulationError::NotFinite { body, step, time, contact }
+            });
+        }
+        Ok(())
+    }
+
+    /// That every body is where it can be, at every frame; notes the state if so.
+    pub(super) fn guard_frame(&mut self) -> Result<(), SimulationError> {
+        let (step, time) = (self.step, self.clock());
+        for (body, motion) in self.motions.iter().enumerate() {
+            let p = motion.position;
+            let place = match &self.scene.drum {
+                Some(d) if p.xy().norm() > d.radius_at(p.z) || p.z.abs() > 0.5 * d.width => "drum",
+                _ if p.norm() > FARTHEST => "100 m about the origin",
+                _ => continue,
+            };
+            return Err(SimulationError::Lost { body, place, step, time });
+        }
+        self.note_good();
+        Ok(())
+    }
+
+    /// Keeps the present state.
+    pub(super) fn note_good(&mut self) {
+        self.good = (self.clock(), self.states());
+    }
+
+    /// Time since the start, s, and bodies of the last frame that passed all guards.
+    pub fn last_good(&self) -> (f64, &[BodyState]) {
+        (self.good.0, &self.good.1)
+    }
+}
