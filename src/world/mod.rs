@@ -220,7 +220,7 @@ impl World {
         parted.sort_unstable();
         self.near.retain(|pair| parted.binary_search(pair).is_err());
         self.near.extend(self.hooks.take());
-        self.near.sort();
+        self.near.sort_unstable();
         self.near.dedup();
         &self.near
     }
