@@ -55,12 +55,11 @@ pub(super) fn bodies(c: &mut Checker<'_>, specs: Vec<BodySpec>) -> Vec<FreeBody>
     let mut bodies = Vec::new();
     for (i, spec) in specs.into_iter().enumerate() {
         let at = Checker::item("bodies", i);
-        match spec.poses.clone() {
-            Some(file) => bodies.extend(in_file(c, &at, file, spec)),
-            None => {
-                c.need(&at.field("position"), spec.position, "a position such as Mm(x, y, z)");
-                bodies.push(body(c, &at, spec));
-            }
+        if let Some(file) = spec.poses.clone() {
+            bodies.extend(in_file(c, &at, file, spec));
+        } else {
+            c.need(&at.field("position"), spec.position, "a position such as Mm(x, y, z)");
+            bodies.push(body(c, &at, spec));
         }
     }
     bodies
