@@ -203,10 +203,11 @@ fn a_tablet_wedged_in_a_corner_stays_finite() {
 #[test]
 fn ten_thousand_tablets_fit() {
     let folder = tempfile::tempdir().expect("can be made");
-    let rows = (0..10_000).map(|k| format!("{},{},{}\n", (k % 25) * 18, (k / 25 % 20) * 18, (k / 500) * 18));
-    let rows: String = rows
-        .map(|r| r.trim().split(',').map(|n| format!("{}e-3", n)).collect::<Vec<_>>().join(",") + "\n")
-        .collect();
+    let row = |k: u32| {
+        let [x, y, z] = [k % 25, k / 25 % 20, k / 500].map(|n| 0.018 * f64::from(n));
+        format!("{x},{y},{z}\n")
+    };
+    let rows: String = (0..10_000).map(row).collect();
     std::fs::write(folder.path().join("lattice.csv"), format!("x,y,z\n{rows}")).expect("can be written");
     let text = r#"(format: 1, title: "many", materials: {"m": (shear_modulus: MPa(1), poisson: 0.25)},
         pairs: [(between: ("m", "m"), friction: 0.5, restitution: 0.5)],

@@ -17,9 +17,12 @@ pub(crate) fn scene(name: &str, set: &[String]) -> Scene {
     Scene::load(&path, set).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// Every frame of a run: time, s, and bodies.
+/// Frames of a run: time, s, and bodies.
+pub(crate) type Frames = Vec<(f64, Vec<BodyState>)>;
+
+/// Keeps every frame.
 #[derive(Default)]
-pub(crate) struct History(pub(crate) Vec<(f64, Vec<BodyState>)>);
+pub(crate) struct History(pub(crate) Frames);
 
 impl Observer for History {
     fn observe(&mut self, frame: &Frame<'_>) {
@@ -28,7 +31,7 @@ impl Observer for History {
 }
 
 /// Runs a scene's duration, as far as it goes.
-pub(crate) fn attempt(scene: &Scene) -> (Result<(), SimulationError>, Vec<(f64, Vec<BodyState>)>) {
+pub(crate) fn attempt(scene: &Scene) -> (Result<(), SimulationError>, Frames) {
     let mut simulation = match Simulation::new(scene) {
         Ok(simulation) => simulation,
         Err(fault) => return (Err(fault), Vec::new()),
@@ -40,7 +43,7 @@ pub(crate) fn attempt(scene: &Scene) -> (Result<(), SimulationError>, Vec<(f64, 
 }
 
 /// All frames of a scene, the start first.
-pub(crate) fn watch(name: &str, set: &[String]) -> Vec<(f64, Vec<BodyState>)> {
+pub(crate) fn watch(name: &str, set: &[String]) -> Frames {
     let (ended, history) = attempt(&scene(name, set));
     ended.unwrap_or_else(|fault| panic!("{name}: {fault}"));
     history
