@@ -19,7 +19,7 @@ pub struct Drum {
     pub facets: usize,
     /// Baffles, if any.
     pub baffles: Option<Baffles>,
-    /// How far the front end (+z) is lifted, rad. All coordinates are those of the drum; [`Scene::gravity`] has it in.
+    /// How far the front end (+z) is lifted, rad. All coordinates are those of the drum; `Scene::gravity` has it in.
     pub axis_tilt: f64,
 }
 
