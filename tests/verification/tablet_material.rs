@@ -49,3 +49,20 @@ fn rebound_and_spin() {
         }
     }
 }
+
+/// A sphere alone feels its own mass at the contact: damped by the contact it rebounds as damped by the body, along the
+/// plane too.
+#[test]
+fn damping_by_the_contact_is_the_same_for_one_sphere() {
+    for (degrees, [as_is, ..]) in TABLE {
+        let (s, c) = degrees.to_radians().sin_cos();
+        let (vx, vy) = (0.3 * s, 0.3 * c);
+        let set = set![
+            "bodies[0].velocity=MPerS({vx}, -{vy}, 0)",
+            "time.impact_speed=MPerS({vy})",
+            "time.duration=Ms(20)",
+            "contact=(damping_mass: Contact)",
+        ];
+        near(run("tablet_impact", &set)[0].velocity.x / vx, as_is[0], 2e-3, "e_t");
+    }
+}
