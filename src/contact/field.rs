@@ -158,7 +158,7 @@ impl ContactField {
             same.unwrap_or_else(|| (PairWatch::new(a, b), Box::new(BodyPair::new())))
         });
         (self.watches, self.pairs) = kept.unzip();
-        let mut contacts = self.desks.iter().flat_map(|desk| desk.memory.now.clone()).peekable();
+        let mut contacts = self.desks.iter_mut().flat_map(|desk| desk.memory.now.drain(..)).peekable();
         let memories = self.watches.chunks(CHUNK).map(|chunk| {
             let last = chunk[chunk.len() - 1].key();
             Memory::of(std::iter::from_fn(|| contacts.next_if(|c| (c.key.0, c.key.1) <= last)).collect())

@@ -155,7 +155,7 @@ impl BodyPair {
         let Scratch { places, .. } = scratch;
         places.clear();
         let (ra, rb) = (oa.radii(), ob.radii());
-        let slack = ROUNDING * oa.bounding_radius.max(ob.bounding_radius) as f32;
+        let slack = rounding(oa, ob);
         let mut gap = f32::INFINITY;
         for &(i, j) in &self.links {
             let (i, j) = (i as usize, j as usize);
@@ -211,7 +211,7 @@ impl BodyPair {
         let axis = (axes * self.axis).map(|x| x as f32);
         of_a.along(&axis, oa, arms_a);
         of_b.along(&-axis, ob, arms_b);
-        let slack = ROUNDING * oa.bounding_radius.max(ob.bounding_radius) as f32;
+        let slack = rounding(oa, ob);
         // At most the gap between the bodies: what the axis leaves between them.
         let between = apart.dot(&axis) - of_a.most - of_b.most - slack;
         let skin = skin as f32;
@@ -247,8 +247,11 @@ impl BodyPair {
     }
 }
 
-/// Error of a distance measured in f32, as a share of the larger body.
-const ROUNDING: f32 = 1e-6;
+/// Error of a distance measured in f32, m: 1e-6 of the larger body.
+#[inline(always)]
+fn rounding(a: &Outline, b: &Outline) -> f32 {
+    1e-6 * a.bounding_radius.max(b.bounding_radius) as f32
+}
 
 /// Skin of a new list, m: wider for bodies that move fast against each other.
 #[inline]

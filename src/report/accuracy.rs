@@ -208,7 +208,7 @@ pub fn accuracy_page(title: &str, note: &str, axes: &[AccuracyAxis]) -> String {
             format!("<tr>{}</tr>", concat(&cells(case), |cell| format!("<td>{}</td>", escape(cell))))
         });
         let content = chart(&format!("accuracy-{}", axis.name), &axis.chart());
-        let table = format!("<table><tr>{head}</tr>{rows}</table>\n");
+        let table = format!("<table class=\"sheet\"><tr>{head}</tr>{rows}</table>\n");
         body += &section(&escape(&axis.name), &escape(&axis.verdict()), &(content + &table));
     }
     document(title, &body)

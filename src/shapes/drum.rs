@@ -240,16 +240,20 @@ mod tests {
         mesh.triangles[t].map(|v| mesh.vertices[v as usize])
     }
 
+    /// Volume inside the facets, negative where they face inwards.
+    fn volume(mesh: &SurfaceMesh) -> f64 {
+        let part = |t| {
+            let [a, b, c] = corners(mesh, t);
+            a.dot(&b.cross(&c)) / 6.0
+        };
+        (0..mesh.triangles.len()).map(part).sum()
+    }
+
     #[test]
     fn wall_and_ends_face_inwards_and_enclose_the_prism() {
         let drum = Drum { baffles: None, ..default_pan() };
         let mesh = drum_mesh(&drum);
-        let volume: f64 = (0..mesh.triangles.len())
-            .map(|t| {
-                let [a, b, c] = corners(&mesh, t);
-                a.dot(&b.cross(&c)) / 6.0
-            })
-            .sum();
+        let volume = volume(&mesh);
         let (n, r) = (drum.facets as f64, drum.diameter / 2.0);
         let prism = 0.5 * n * r * r * (TAU / n).sin() * drum.width;
         assert_relative_eq!(volume, -prism, max_relative = 1e-12);
@@ -342,12 +346,7 @@ mod tests {
     fn a_profile_encloses_its_cones() {
         let drum = Drum { baffles: None, ..barrel() };
         let mesh = drum_mesh(&drum);
-        let volume: f64 = (0..mesh.triangles.len())
-            .map(|t| {
-                let [a, b, c] = corners(&mesh, t);
-                a.dot(&b.cross(&c)) / 6.0
-            })
-            .sum();
+        let volume = volume(&mesh);
         let n = drum.facets as f64;
         assert_relative_eq!(-volume, drum.volume() * n * (TAU / n).sin() / TAU, max_relative = 1e-12);
         assert_relative_eq!(drum.radius_at(0.0), 0.125);

@@ -1,19 +1,5 @@
 // Counts the numbers that were drawn: the twin of the processor's ledger.
 
-struct View {
-    axis: vec2f,
-    pixels: vec2f,
-    distance: f32,
-    near: f32,
-    diverging: u32,
-    // Where this frame's counts of bodies go.
-    slot: u32,
-    bodies: u32,
-    // 1 when pixels have weights.
-    weighted: u32,
-    unused: vec2u,
-}
-
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var numbers: texture_2d<u32>;
 @group(0) @binding(2) var<storage, read> weights: array<u32>;

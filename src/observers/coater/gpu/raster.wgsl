@@ -1,22 +1,6 @@
 // Draws numbers: the twin of the processor's raster. Vertices are fetched by number, so that a panel's own number follows
 // from that of its first corner.
 
-struct View {
-    // Where the axis is on the screen, pixels.
-    axis: vec2f,
-    // Columns and rows.
-    pixels: vec2f,
-    // Nozzle to zone and nozzle to near plane, m.
-    distance: f32,
-    near: f32,
-    diverging: u32,
-    // Of no use here: see the counting.
-    slot: u32,
-    bodies: u32,
-    weighted: u32,
-    unused: vec2u,
-}
-
 struct Instance {
     // Rows of the turn from body to camera axes, the position last.
     rows: array<vec4f, 3>,

@@ -213,8 +213,13 @@ impl Maker<'_> {
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 
+    fn shader(&self, source: &str) -> wgpu::ShaderModule {
+        let source = wgpu::ShaderSource::Wgsl(source.into());
+        self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
+    }
+
     fn counting(&self) -> wgpu::ComputePipeline {
-        let module = self.device.create_shader_module(wgpu::include_wgsl!("count.wgsl"));
+        let module = self.shader(concat!(include_str!("view.wgsl"), include_str!("count.wgsl")));
         self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,
             layout: None,
@@ -228,7 +233,7 @@ impl Maker<'_> {
     /// For bodies and for the drum.
     fn drawing(&self) -> [wgpu::RenderPipeline; 2] {
         let device = self.device;
-        let module = device.create_shader_module(wgpu::include_wgsl!("raster.wgsl"));
+        let module = self.shader(concat!(include_str!("view.wgsl"), include_str!("raster.wgsl")));
         let storage = wgpu::BufferBindingType::Storage { read_only: true };
         let kinds = [wgpu::BufferBindingType::Uniform, storage, storage, storage];
         let bindings = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
