@@ -164,6 +164,7 @@ impl ContactField {
             Memory::of(std::iter::from_fn(|| contacts.next_if(|c| (c.key.0, c.key.1) <= last)).collect())
         });
         let memories: Vec<_> = memories.collect();
+        drop(contacts);
         self.desks.resize_with(memories.len(), Desk::default);
         for (desk, memory) in self.desks.iter_mut().zip(memories) {
             desk.memory = memory;
