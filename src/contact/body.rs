@@ -1,56 +1,52 @@
 //! What contact knows of each body beside its motion.
 
-use crate::shapes::{Clump, Sphere};
+use crate::shapes::Clump;
 use nalgebra::Vector3;
 
-/// A clump prepared for list building.
+/// One sphere of a body, body axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ball {
+    /// m.
+    pub center: Vector3<f64>,
+    /// m.
+    pub radius: f64,
+    /// 1/radius, 1/m.
+    pub curvature: f64,
+}
+
+/// Centres x, y, z and radii of eight spheres, m: in f32, which is enough to tell what cannot touch.
+pub(super) type Eight = [[f32; 8]; 4];
+
+/// A clump prepared for contact.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outline {
-    pub spheres: Vec<Sphere>,
+    pub balls: Vec<Ball>,
     /// Largest distance of a sphere's far side from the centre of mass, m.
     pub bounding_radius: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
     pub reach: f64,
-    /// Centres x, y, z and radii by turns, m. Places left over hold a sphere of radius −∞.
-    turns: Vec<f32>,
+    /// The spheres once more. Places left over hold a sphere of radius −∞.
+    pub eights: Vec<Eight>,
 }
-
-/// Spheres are stored in multiples of this number.
-const EIGHT: usize = 8;
 
 impl Outline {
     pub(super) fn new(clump: &Clump) -> Self {
-        let padded = clump.spheres.len().next_multiple_of(EIGHT);
-        let lay = |of: fn(&Sphere) -> f64, rest: f32| {
-            (0..padded).map(move |k| clump.spheres.get(k).map_or(rest, |sphere| of(sphere) as f32))
-        };
-        let centers =
-            lay(|s| s.center.x, 0.0).chain(lay(|s| s.center.y, 0.0)).chain(lay(|s| s.center.z, 0.0));
+        let ball =
+            |s: &crate::shapes::Sphere| Ball { center: s.center, radius: s.radius, curvature: 1.0 / s.radius };
+        let balls: Vec<Ball> = clump.spheres.iter().map(ball).collect();
+        let eights = balls.chunks(8).map(|balls| {
+            let lay = |of: fn(&Ball) -> f64, rest: f32| {
+                std::array::from_fn(|k| balls.get(k).map_or(rest, |ball| of(ball) as f32))
+            };
+            let radii = lay(|b| b.radius, f32::NEG_INFINITY);
+            [lay(|b| b.center.x, 0.0), lay(|b| b.center.y, 0.0), lay(|b| b.center.z, 0.0), radii]
+        });
         Self {
             bounding_radius: clump.bounding_radius(),
             reach: clump.reach(),
-            turns: centers.chain(lay(|s| s.radius, f32::NEG_INFINITY)).collect(),
-            spheres: clump.spheres.clone(),
+            eights: eights.collect(),
+            balls,
         }
-    }
-
-    /// Number of spheres with the places left over.
-    #[inline(always)]
-    pub(super) fn padded(&self) -> usize {
-        self.turns.len() / 4
-    }
-
-    /// Centres along x, y and z, body axes, m.
-    #[inline(always)]
-    pub(super) fn centers(&self) -> [&[f32]; 3] {
-        let padded = self.padded();
-        std::array::from_fn(|axis| &self.turns[axis * padded..(axis + 1) * padded])
-    }
-
-    /// Radii, m.
-    #[inline(always)]
-    pub(super) fn radii(&self) -> &[f32] {
-        &self.turns[3 * self.padded()..]
     }
 }
 

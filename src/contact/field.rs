@@ -1,12 +1,11 @@
 //! All contacts of a run.
 
-use super::arms::Arms;
 use super::body::{BodyConstants, Outline};
 use super::law::PairLaw;
 use super::memory::{Contact, Memory};
 use super::pairs::{BodyPair, PairWatch, Setting};
 use super::surface::Surface;
-use super::tasks::{Desk, PairTask, Turning, WallTask};
+use super::tasks::{Desk, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::{DampingMass, Scene};
 use crate::shapes::{SurfaceMesh, TabletShape};
@@ -65,7 +64,6 @@ pub struct Tally {
 pub struct ContactField {
     outlines: Vec<Outline>,
     bodies: Vec<BodyConstants>,
-    arms: Vec<Arms>,
     pub(super) laws: Vec<PairLaw>,
     materials: usize,
     damping: DampingMass,
@@ -101,7 +99,6 @@ impl ContactField {
         Self {
             outlines,
             bodies: Vec::new(),
-            arms: Vec::new(),
             laws: laws.collect(),
             materials: n,
             damping: scene.contact.damping_mass,
@@ -125,7 +122,6 @@ impl ContactField {
         let inverse_mass = 1.0 / mass;
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
-        self.arms.push(Arms::new());
         let surfaces = self.boundaries.len() as u32;
         self.wall_watches.extend((0..surfaces).map(|surface| WallWatch::new(body, surface)));
         self.walls.resize(self.wall_watches.len(), WallList::new());
@@ -184,17 +180,10 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
-        let (outlines, bodies) = (&self.outlines, &self.bodies);
-        let sets =
-            self.arms.par_chunks_mut(CHUNK).zip(motions.par_chunks(CHUNK)).zip(bodies.par_chunks(CHUNK));
-        sets.for_each(|((arms, motions), bodies)| {
-            pulp::Arch::new().dispatch(Turning { arms, motions, bodies, outlines });
-        });
         let setting = Setting {
-            outlines,
-            bodies,
+            outlines: &self.outlines,
+            bodies: &self.bodies,
             motions,
-            arms: &self.arms,
             odometers: world.odometers(),
             materials: self.materials,
             skin: self.skin,

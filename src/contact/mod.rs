@@ -4,10 +4,10 @@
 //! increments are taken at one time level; each contact has one common point for both bodies, so that angular momentum is
 //! conserved to round-off.
 
-mod arms;
 mod batch;
 mod body;
 mod energy;
+mod extents;
 mod field;
 #[cfg(test)]
 mod harvest;

@@ -8,15 +8,16 @@
 //! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
-use super::arms::{Arms, Extents, arm};
 use super::batch::{Batch, Place};
-use super::body::{BodyConstants, Outline};
+use super::body::{BodyConstants, Eight, Outline};
+use super::extents::Extents;
 use super::lease::Lease;
 use super::memory::Memory;
 use super::side::Side;
-use crate::world::Motion;
-use nalgebra::{Matrix3, Vector3};
+use crate::world::{Motion, Relative};
+use nalgebra::Vector3;
 use smallvec::SmallVec;
+use wide::f32x8;
 
 /// What is read of every near pair in every step: kept apart from the lists, which most pairs do not need.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +47,6 @@ pub(super) struct Setting<'a> {
     pub outlines: &'a [Outline],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
-    pub arms: &'a [Arms],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
     pub materials: usize,
@@ -80,7 +80,7 @@ impl Setting<'_> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scratch {
     extents: [Extents; 2],
-    near: Vec<(u16, Vector3<f32>, f32)>,
+    near: Candidates,
     pub places: Vec<Place>,
     /// Facets near a body.
     pub facets: Vec<u32>,
@@ -136,17 +136,14 @@ impl BodyPair {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
-        let (arms_a, arms_b) = (&setting.arms[a], &setting.arms[b]);
         let offset = mb.position - ma.position;
-        let apart = offset.map(|x| x as f32);
         let travelled = watch.travelled(setting.odometers);
         if worn {
             let at = mb.seen_from(ma);
             let mut left = self.listed.left(&at, ob.reach);
             if !self.listed.holds(left) {
                 let skin = skin(setting, ma, mb, oa.reach + ob.reach);
-                self.listed = Lease { at, allowance: 0.0 };
-                self.list([(oa, arms_a), (ob, arms_b)], &ma.rotation, &apart, skin, scratch);
+                self.list([oa, ob], at, skin, scratch);
                 left = self.listed.allowance;
                 scratch.rebuilt += 1;
             }
@@ -154,39 +151,29 @@ impl BodyPair {
         }
         let Scratch { places, .. } = scratch;
         places.clear();
-        let (ra, rb) = (oa.radii(), ob.radii());
-        let slack = rounding(oa, ob);
-        let mut gap = f32::INFINITY;
+        let mut gap = f64::INFINITY;
         for &(i, j) in &self.links {
-            let (i, j) = (i as usize, j as usize);
-            let reach = ra[i] + rb[j] + slack;
-            let distance2 = (apart + arm(arms_b, j) - arm(arms_a, i)).norm_squared();
+            let (ball_a, ball_b) = (&oa.balls[i as usize], &ob.balls[j as usize]);
+            let arm = ma.rotation * ball_a.center;
+            let between = offset + mb.rotation * ball_b.center - arm;
+            let reach = ball_a.radius + ball_b.radius;
+            let distance2 = between.norm_squared();
             if distance2 >= reach * reach {
                 gap = gap.min(distance2.sqrt() - reach);
                 continue;
             }
-            let (si, sj) = (&oa.spheres[i], &ob.spheres[j]);
-            let arm = ma.rotation * si.center;
-            let between = offset + mb.rotation * sj.center - arm;
-            let reach = si.radius + sj.radius;
-            let distance2 = between.norm_squared();
-            if distance2 >= reach * reach {
-                gap = 0.0;
-                continue;
-            }
-            let (ci, cj) = (1.0 / si.radius, 1.0 / sj.radius);
             places.push(Place {
                 arm,
                 between: if distance2 > 0.0 { between } else { Vector3::y() * f64::EPSILON },
                 reach,
-                radius: si.radius,
-                curvature: ci + cj,
-                sharpness: ci.max(cj),
-                spring: memory.recall((watch.a, watch.b, i as u16, j as u16)),
+                radius: ball_a.radius,
+                curvature: ball_a.curvature + ball_b.curvature,
+                sharpness: ball_a.curvature.max(ball_b.curvature),
+                spring: memory.recall((watch.a, watch.b, i, j)),
             });
         }
         if places.is_empty() {
-            watch.quiet = self.mark.min(travelled + f64::from(gap));
+            watch.quiet = self.mark.min(travelled + gap);
             return;
         }
         watch.quiet = f64::NEG_INFINITY;
@@ -194,56 +181,101 @@ impl BodyPair {
         batch.take((watch.a, watch.b), 0, law, (&setting.side(a), &setting.side(b)), places);
     }
 
-    /// Lists the sphere pairs with a gap below the skin, m; `apart` leads from a's centre of mass to b's, m.
+    /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.
     #[inline(always)]
-    fn list(
-        &mut self,
-        [(oa, arms_a), (ob, arms_b)]: [(&Outline, &Arms); 2],
-        axes: &Matrix3<f64>,
-        apart: &Vector3<f32>,
-        skin: f64,
-        scratch: &mut Scratch,
-    ) {
+    fn list(&mut self, [oa, ob]: [&Outline; 2], at: Relative, skin: f64, scratch: &mut Scratch) {
         let Scratch { extents: [of_a, of_b], near, .. } = scratch;
         if self.axis == Vector3::zeros() {
-            self.axis = self.listed.at.position.try_normalize(0.0).unwrap_or_else(Vector3::y);
+            self.axis = at.position.try_normalize(0.0).unwrap_or_else(Vector3::y);
         }
-        let axis = (axes * self.axis).map(|x| x as f32);
-        of_a.along(&axis, oa, arms_a);
-        of_b.along(&-axis, ob, arms_b);
+        let to_f32 = |v: &Vector3<f64>| v.map(|x| x as f32);
+        let (apart, turn) = (to_f32(&at.position), at.rotation.map(|x| x as f32));
+        of_a.measure(oa, &to_f32(&self.axis));
+        of_b.measure(ob, &to_f32(&at.rotation.tr_mul(&-self.axis)));
         let slack = rounding(oa, ob);
         // At most the gap between the bodies: what the axis leaves between them.
-        let between = apart.dot(&axis) - of_a.most - of_b.most - slack;
+        let between = apart.dot(&to_f32(&self.axis)) - of_a.most - of_b.most - slack;
         let skin = skin as f32;
-        self.listed.allowance = f64::from(skin.max(between));
+        self.listed = Lease { at, allowance: f64::from(skin.max(between)) };
         self.links.clear();
         let depth = skin - between;
         if depth <= 0.0 {
             return;
         }
-        let (ra, rb) = (oa.radii(), ob.radii());
         near.clear();
-        of_b.beyond(of_b.most - depth, |j| {
-            near.push((j as u16, apart + arm(arms_b, j), rb[j] + skin + slack));
+        of_b.foremost(depth, |j| {
+            let [x, y, z, radius] = ob.eights[j / 8].map(|row| row[j % 8]);
+            near.push(j as u16, apart + turn * Vector3::new(x, y, z), radius + skin + slack);
         });
-        let mut nearest = (f32::INFINITY, axis);
-        of_a.beyond(of_a.most - depth, |i| {
-            let (center, radius) = (arm(arms_a, i), ra[i]);
-            for (j, other, other_radius) in near.iter() {
-                let d = other - center;
-                let reach = radius + other_radius;
-                let distance2 = d.norm_squared();
-                if distance2 < reach * reach {
-                    self.links.push((i as u16, *j));
-                }
-                let gap = distance2.sqrt() - reach;
-                if gap < nearest.0 {
-                    nearest = (gap, d);
-                }
+        let mut nearest = (f32::INFINITY, to_f32(&self.axis));
+        of_a.foremost(depth, |i| {
+            let [x, y, z, radius] = oa.eights[i / 8].map(|row| row[i % 8]);
+            near.against(&Vector3::new(x, y, z), radius, &mut nearest, |j| self.links.push((i as u16, j)));
+        });
+        self.axis = nearest.1.map(f64::from).try_normalize(0.0).unwrap_or(self.axis);
+    }
+}
+
+/// Spheres of the second body that may come near the first, in the first one's axes.
+#[derive(Debug, Clone, Default)]
+struct Candidates {
+    numbers: Vec<u16>,
+    eights: Vec<Eight>,
+}
+
+/// A sphere nothing comes near, in places left over.
+const NOWHERE: [f32; 4] = [1e15, 0.0, 0.0, 0.0];
+
+impl Candidates {
+    fn clear(&mut self) {
+        self.numbers.clear();
+        self.eights.clear();
+    }
+
+    #[inline(always)]
+    fn push(&mut self, number: u16, center: Vector3<f32>, radius: f32) {
+        let (at, k) = (self.numbers.len() / 8, self.numbers.len() % 8);
+        if k == 0 {
+            self.eights.push(NOWHERE.map(|x| [x; 8]));
+        }
+        for (row, value) in self.eights[at].iter_mut().zip([center.x, center.y, center.z, radius]) {
+            row[k] = value;
+        }
+        self.numbers.push(number);
+    }
+
+    /// Calls `f` with the numbers of those that meet a sphere, in order. `nearest` holds how near, m² (the square of the
+    /// distance less that of the radii), and in which direction the nearest so far was.
+    #[inline(always)]
+    fn against(
+        &self,
+        center: &Vector3<f32>,
+        radius: f32,
+        nearest: &mut (f32, Vector3<f32>),
+        mut f: impl FnMut(u16),
+    ) {
+        for (at, [x, y, z, radii]) in self.eights.iter().enumerate() {
+            let mut excess = [0.0; 8];
+            for k in 0..8 {
+                let (dx, dy, dz) = (x[k] - center.x, y[k] - center.y, z[k] - center.z);
+                let reach = radius + radii[k];
+                excess[k] = dx * dx + dy * dy + dz * dz - reach * reach;
             }
-        });
-        let axis = axes.tr_mul(&nearest.1.map(f64::from));
-        self.axis = axis.try_normalize(0.0).unwrap_or(self.axis);
+            let lanes = f32x8::new(excess);
+            let mut nearer = lanes.simd_lt(f32x8::splat(nearest.0)).to_bitmask();
+            while nearer != 0 {
+                let k = nearer.trailing_zeros() as usize;
+                if excess[k] < nearest.0 {
+                    *nearest = (excess[k], Vector3::new(x[k], y[k], z[k]) - center);
+                }
+                nearer &= nearer - 1;
+            }
+            let mut meeting = lanes.simd_lt(f32x8::splat(0.0)).to_bitmask();
+            while meeting != 0 {
+                f(self.numbers[8 * at + meeting.trailing_zeros() as usize]);
+                meeting &= meeting - 1;
+            }
+        }
     }
 }
 

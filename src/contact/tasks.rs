@@ -2,9 +2,7 @@
 //!
 //! Each piece is compiled for the widest vector instructions of the machine, which is why what it calls is inlined.
 
-use super::arms::{self, Arms};
 use super::batch::{Batch, Exchange, Rule};
-use super::body::{BodyConstants, Outline};
 use super::energy::Press;
 use super::law::PairLaw;
 use super::memory::Memory;
@@ -12,7 +10,7 @@ use super::pairs::{BodyPair, PairWatch, Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
-use crate::world::{Motion, World};
+use crate::world::World;
 use nalgebra::Vector3;
 
 /// Contacts that are worked out together at least: what they need stays in the nearest memory.
@@ -28,25 +26,6 @@ pub(super) struct Desk {
     pub touching: Vec<Exchange>,
     /// Contact by contact, when asked for.
     pub presses: Vec<Press>,
-}
-
-/// Bodies whose spheres one task turns.
-pub(super) struct Turning<'a> {
-    pub arms: &'a mut [Arms],
-    pub motions: &'a [Motion],
-    pub bodies: &'a [BodyConstants],
-    pub outlines: &'a [Outline],
-}
-
-impl pulp::NullaryFnOnce for Turning<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        for ((arms, motion), body) in self.arms.iter_mut().zip(self.motions).zip(self.bodies) {
-            arms::turn(&self.outlines[body.shape], motion, arms);
-        }
-    }
 }
 
 /// The pairs that one task looks at.

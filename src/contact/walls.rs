@@ -5,13 +5,12 @@
 //! over to the patch that takes the sphere on. In a concave corner both patches push.
 
 use super::batch::{Batch, Place};
-use super::body::Outline;
+use super::body::{Ball, Outline};
 use super::law::Spring;
 use super::lease::Lease;
 use super::pairs::{Scratch, Setting};
 use super::side::Side;
 use super::surface::{Nearest, Surface};
-use crate::shapes::Sphere;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 
@@ -141,7 +140,7 @@ impl WallList {
         self.candidates.clear();
         near.retain(|f| !surface.beyond(*f, &position, outline.bounding_radius + nearest));
         near.sort_unstable_by_key(|f| (surface.patch(*f), *f));
-        for (i, sphere) in outline.spheres.iter().enumerate() {
+        for (i, sphere) in outline.balls.iter().enumerate() {
             let center = position + rotation * sphere.center;
             for &f in near.iter() {
                 if surface.beyond(f, &center, sphere.radius + nearest) {
@@ -168,7 +167,7 @@ impl WallList {
         let patches = self.candidates.chunk_by(|a, b| a.0 == b.0 && surface.patch(a.1) == surface.patch(b.1));
         for candidates in patches {
             let (sphere, patch) = (candidates[0].0, surface.patch(candidates[0].1));
-            let Sphere { center, radius } = &outline.spheres[sphere as usize];
+            let Ball { center, radius, .. } = &outline.balls[sphere as usize];
             let center = *position + *rotation * center;
             let first = self.facets.len() as u32;
             for &(_, f) in candidates {
@@ -216,7 +215,7 @@ impl WallList {
         let body = watch.body as usize;
         let constants = &setting.bodies[body];
         let motion = &setting.motions[body];
-        let spheres = &setting.outlines[constants.shape].spheres;
+        let balls = &setting.outlines[constants.shape].balls;
         let surface = &boundary.motion;
         let offset = motion.position - surface.position;
         let travelled = setting.odometers[body];
@@ -230,7 +229,7 @@ impl WallList {
                 first = last;
                 continue;
             }
-            let sphere = &spheres[i as usize];
+            let sphere = &balls[i as usize];
             let arm = motion.rotation * sphere.center;
             let local = surface.rotation.tr_mul(&(offset + arm));
             let start = places.len();
@@ -248,15 +247,14 @@ impl WallList {
                 if overlap <= 0.0 || self.taken(&nearest, first..last, k, &local, boundary) {
                     continue;
                 }
-                let curvature = 1.0 / sphere.radius;
                 self.held.push(k as u32);
                 places.push(Place {
                     arm,
                     between: surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON),
                     reach: sphere.radius,
                     radius: sphere.radius,
-                    curvature,
-                    sharpness: curvature,
+                    curvature: sphere.curvature,
+                    sharpness: sphere.curvature,
                     spring: self.grips[k].spring,
                 });
             }
