@@ -173,7 +173,7 @@ impl Batch {
         list: usize,
         law: usize,
         (side_a, side_b): (&Side<'_>, &Side<'_>),
-        places: &[Place],
+        places: impl Iterator<Item = Place>,
     ) {
         if self.used > 0 && self.blocks[self.used - 1].law != law {
             self.len = self.used * LANES;
@@ -184,7 +184,7 @@ impl Batch {
         let drift = mb.velocity - ma.velocity - mb.spin.cross(&offset);
         let turn = mb.spin - ma.spin;
         let spin = (ma.spin + mb.spin) * 0.5;
-        self.meetings.push(Meeting { a, b, list, first: self.len, count: places.len(), offset });
+        let first = self.len;
         for place in places {
             let (at, k) = (self.len / LANES, self.len % LANES);
             if at == self.used {
@@ -209,6 +209,7 @@ impl Batch {
             block.stretch_radius[k] = place.spring.radius;
             self.len += 1;
         }
+        self.meetings.push(Meeting { a, b, list, first, count: self.len - first, offset });
     }
 
     /// Forces of all contacts taken. `sides` are the two partners of a meeting; `done` gets what they do to each other,

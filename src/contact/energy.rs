@@ -10,8 +10,8 @@
 //! which slides f·p away. What of the work is neither slid away nor in the springs afterwards is the change of stiffness.
 
 use super::field::{ContactField, Partner};
+use super::tasks::Desk;
 use super::law::{PairLaw, Spring};
-use super::memory::Contact;
 use crate::scene::TangentialLaw;
 use nalgebra::Vector3;
 
@@ -69,9 +69,9 @@ impl ContactField {
             press,
             law: &self.laws[press.law],
         };
-        let pairs = self.desks.iter().flat_map(|desk| desk.memory.now.iter().zip(&desk.presses));
-        let pairs = pairs.map(move |(Contact { key: (a, b, i, j), .. }, press)| {
-            state(press, *a, Partner::Body(*b as usize), (u32::from(*i), u32::from(*j)))
+        let touching = |desk: &'a Desk| desk.links.all.iter().filter(|link| link.touched()).zip(&desk.presses);
+        let pairs = self.desks.iter().flat_map(touching).map(move |(link, press)| {
+            state(press, link.a, Partner::Body(link.b as usize), (link.i.into(), link.j.into()))
         });
         let grips = self.wall_watches.iter().zip(&self.walls).flat_map(|(watch, list)| {
             list.grips.iter().filter(|grip| grip.touching).map(move |grip| (watch, grip))

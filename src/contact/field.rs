@@ -2,8 +2,8 @@
 
 use super::body::{BodyConstants, Outline};
 use super::law::PairLaw;
-use super::memory::{Contact, Memory};
-use super::pairs::{BodyPair, PairWatch, Setting};
+use super::links::{Link, Links};
+use super::pairs::{PairList, PairWatch, Setting};
 use super::surface::Surface;
 use super::tasks::{Desk, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
@@ -12,6 +12,7 @@ use crate::shapes::{SurfaceMesh, TabletShape};
 use crate::world::{Motion, World};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use smallvec::SmallVec;
 
 /// The common skin of lists, as a share of the largest bounding radius. Small skins are used up quickly and lists are
 /// rebuilt often; large ones hold many pairs that do not touch.
@@ -71,9 +72,11 @@ pub struct ContactField {
     pub(super) keep_contacts: bool,
     skin: f64,
     watches: Vec<PairWatch>,
+    /// Distance that any body can have moved when each of `watches` must be looked at, m.
+    wakes: Vec<f64>,
     /// The lists of `watches`, in the same order.
     #[expect(clippy::vec_box, reason = "lists are large and change places at every search")]
-    pairs: Vec<Box<BodyPair>>,
+    pairs: Vec<Box<PairList>>,
     boundaries: Vec<Boundary>,
     pub(super) wall_watches: Vec<WallWatch>,
     /// The lists of `wall_watches`, in the same order.
@@ -105,6 +108,7 @@ impl ContactField {
             keep_contacts: false,
             skin: SKIN * largest,
             watches: Vec::new(),
+            wakes: Vec::new(),
             pairs: Vec::new(),
             boundaries: Vec::new(),
             wall_watches: Vec::new(),
@@ -146,24 +150,29 @@ impl ContactField {
 
     /// Tells the field which bodies are near each other; lists of pairs that stay are kept. Sorted, smaller index first.
     pub fn set_near(&mut self, near: &[(u32, u32)]) {
-        let watches = std::mem::take(&mut self.watches).into_iter();
+        let watches = std::mem::take(&mut self.watches).into_iter().zip(std::mem::take(&mut self.wakes));
         let mut old = watches.zip(std::mem::take(&mut self.pairs)).peekable();
         let kept = near.iter().map(|&(a, b)| {
-            while old.next_if(|(watch, _)| watch.key() < (a, b)).is_some() {}
-            let same = old.next_if(|(watch, _)| watch.key() == (a, b));
-            same.unwrap_or_else(|| (PairWatch::new(a, b), Box::new(BodyPair::new())))
+            while old.next_if(|((watch, _), _)| watch.key() < (a, b)).is_some() {}
+            let same = old.next_if(|((watch, _), _)| watch.key() == (a, b));
+            let new = || ((PairWatch::new(a, b), f64::NEG_INFINITY), Box::new(PairList::new()));
+            same.unwrap_or_else(new)
         });
-        (self.watches, self.pairs) = kept.unzip();
-        let mut contacts = self.desks.iter_mut().flat_map(|desk| desk.memory.now.drain(..)).peekable();
-        let memories = self.watches.chunks(CHUNK).map(|chunk| {
-            let last = chunk[chunk.len() - 1].key();
-            Memory::of(std::iter::from_fn(|| contacts.next_if(|c| (c.key.0, c.key.1) <= last)).collect())
+        ((self.watches, self.wakes), self.pairs) = kept.unzip();
+        let mut links = self.desks.iter_mut().flat_map(|desk| desk.links.all.drain(..)).peekable();
+        let sequences = self.watches.chunks(CHUNK).map(|chunk| {
+            let kept = chunk.iter().flat_map(|watch| {
+                while links.next_if(|link| link.bodies() < watch.key()).is_some() {}
+                std::iter::from_fn(|| links.next_if(|link| link.bodies() == watch.key()))
+                    .collect::<SmallVec<[Link; 16]>>()
+            });
+            Links::from(kept.collect::<Vec<_>>())
         });
-        let memories: Vec<_> = memories.collect();
-        drop(contacts);
-        self.desks.resize_with(memories.len(), Desk::default);
-        for (desk, memory) in self.desks.iter_mut().zip(memories) {
-            desk.memory = memory;
+        let sequences: Vec<_> = sequences.collect();
+        drop(links);
+        self.desks.resize_with(sequences.len(), Desk::default);
+        for (desk, links) in self.desks.iter_mut().zip(sequences) {
+            desk.links = links;
         }
     }
 
@@ -185,14 +194,15 @@ impl ContactField {
             bodies: &self.bodies,
             motions,
             odometers: world.odometers(),
+            pace: world.pace(),
             materials: self.materials,
             skin: self.skin,
             dt,
         };
         let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
         let (setting, keep_contacts) = (&setting, self.keep_contacts);
-        let pairs = |((watches, lists), desk)| {
-            let task = PairTask { watches, lists, desk, setting, laws, damping, keep_contacts };
+        let pairs = |(((wakes, watches), lists), desk)| {
+            let task = PairTask { wakes, watches, lists, desk, setting, laws, damping, keep_contacts };
             pulp::Arch::new().dispatch(task);
         };
         let walls = |((watches, lists), desk)| {
@@ -201,7 +211,8 @@ impl ContactField {
             pulp::Arch::new().dispatch(task);
         };
         self.wall_desks.resize_with(self.walls.len().div_ceil(CHUNK), Desk::default);
-        let pair_lists = self.watches.par_chunks_mut(CHUNK).zip(self.pairs.par_chunks_mut(CHUNK));
+        let watches = self.wakes.par_chunks_mut(CHUNK).zip(self.watches.par_chunks_mut(CHUNK));
+        let pair_lists = watches.zip(self.pairs.par_chunks_mut(CHUNK));
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
         rayon::join(
             || pair_lists.zip(&mut self.desks).for_each(pairs),
@@ -257,9 +268,8 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let pairs = self.desks.iter().flat_map(|desk| &desk.memory.now).map(|Contact { key, spring }| {
-            (key.0, key.1, u32::from(key.2), u32::from(key.3), spring.stretch)
-        });
+        let links = self.desks.iter().flat_map(|desk| &desk.links.all).filter(|link| link.touched());
+        let pairs = links.map(|link| (link.a, link.b, link.i.into(), link.j.into(), link.spring.stretch));
         let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
             let touching = list.grips.iter().filter(|g| g.touching);
             touching.map(|g| (w.body, w.surface, u32::from(g.sphere), g.patch, g.spring.stretch))

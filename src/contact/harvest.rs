@@ -112,13 +112,13 @@ proptest! {
         let mut wrenches = vec![Wrench { force: Vector3::zeros(), torque: Vector3::zeros() }; kinds.len()];
         let first = (Vector3::zeros(), Vector3::zeros());
         for (step, turn) in std::iter::once(first).chain(moves) {
-            for (k, motion) in motions.iter_mut().enumerate() {
-                // Bodies move apart, together and past each other: each by a multiple of its own.
-                let share = [1.0, -0.7, 0.4, -0.2, 0.9][k];
+            // Bodies move apart, together and past each other: each by a multiple of its own.
+            let shares = [1.0, -0.7, 0.4, -0.2, 0.9];
+            for (motion, share) in motions.iter_mut().zip(shares) {
                 motion.position += step * share;
                 motion.rotation = UnitQuaternion::new(turn * share).to_rotation_matrix().into_inner() * motion.rotation;
-                world.travel(k, (step * share).norm(), (turn * share).norm());
             }
+            world.travel(shares.iter().map(|share| ((step * *share).norm(), (turn * *share).norm())));
             if world.must_search(&motions, &rest) {
                 field.set_near(world.search(&motions, &[rest], &rest));
             }

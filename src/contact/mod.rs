@@ -13,7 +13,7 @@ mod field;
 mod harvest;
 mod law;
 mod lease;
-mod memory;
+mod links;
 mod pairs;
 mod side;
 mod surface;

@@ -1,42 +1,36 @@
-//! Two bodies near each other: the list of sphere pairs that may touch, its budget, and its forces.
+//! Two bodies near each other: which of their spheres may touch, and for how long that is known.
 //!
 //! Most of the bed turns as a solid, so neighbours hardly move against each other. A list holds the sphere pairs with a
-//! gap below a skin and stays valid until the bodies' *relative* motion has used the skin up. Tests of growing cost
-//! watch over that: the sum of both odometers (motion against the turning drum) against a mark; the exact relative
-//! displacement since the list was built; a new list.
+//! gap below a skin and stays complete until the bodies' *relative* motion has used the skin up. Tests of growing cost
+//! watch over that: how far any body can have gone; the sum of both odometers (motion against the turning drum); the
+//! exact relative displacement since the list was made; a new list.
 //!
 //! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
-use super::batch::{Batch, Place};
-use super::body::{BodyConstants, Eight, Outline};
+use super::batch::Place;
+use super::body::{Ball, BodyConstants, Eight, Outline};
 use super::extents::Extents;
 use super::lease::Lease;
-use super::memory::Memory;
+use super::links::{Link, Links};
 use super::side::Side;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
-use smallvec::SmallVec;
 use wide::f32x8;
 
-/// What is read of every near pair in every step: kept apart from the lists, which most pairs do not need.
+/// What is read of a near pair to know whether its list is good.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PairWatch {
     /// Bodies, `a < b`.
     pub a: u32,
     pub b: u32,
-    /// Sum of the odometers up to which the list is complete and nothing in it can touch, m.
-    quiet: f64,
-}
-
-/// The list of two bodies. What is read while it is good lies in its first 64 bytes.
-#[derive(Debug, Clone, PartialEq)]
-#[repr(C, align(64))]
-pub(super) struct BodyPair {
     /// Sum of the odometers up to which the list is complete, m.
     mark: f64,
-    /// Spheres i of a and j of b that may touch, sorted.
-    links: SmallVec<[(u16, u16); 9]>,
+}
+
+/// The list of two bodies; its sphere pairs are [`Links`].
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PairList {
     listed: Lease,
     /// Unit vector from a to b along which their surfaces were nearest, a's axes.
     axis: Vector3<f64>,
@@ -49,6 +43,8 @@ pub(super) struct Setting<'a> {
     pub motions: &'a [Motion],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
+    /// Distance that any body can have moved so far, m.
+    pub pace: f64,
     pub materials: usize,
     pub skin: f64,
     pub dt: f64,
@@ -57,6 +53,19 @@ pub(super) struct Setting<'a> {
 impl Setting<'_> {
     fn outline(&self, body: usize) -> &Outline {
         &self.outlines[self.bodies[body].shape]
+    }
+
+    /// The spheres of a link.
+    #[inline(always)]
+    pub(super) fn balls(&self, link: &Link) -> (&Ball, &Ball) {
+        let (a, b) = (self.outline(link.a as usize), self.outline(link.b as usize));
+        (&a.balls[link.i as usize], &b.balls[link.j as usize])
+    }
+
+    /// Index of the law of two bodies.
+    #[inline]
+    pub(super) fn law_of(&self, a: usize, b: usize) -> usize {
+        self.law(self.bodies[a].material, self.bodies[b].material)
     }
 
     /// Index of the law of two materials.
@@ -81,110 +90,68 @@ impl Setting<'_> {
 pub(super) struct Scratch {
     extents: [Extents; 2],
     near: Candidates,
+    /// A new list.
+    spheres: Vec<(u16, u16)>,
     pub places: Vec<Place>,
     /// Facets near a body.
     pub facets: Vec<u32>,
-    /// Pairs to look at, and whether their lists are worn.
-    pub alert: Vec<(u32, bool)>,
+    /// Pairs to look at.
+    pub alert: Vec<u32>,
     /// Lists built anew so far.
     pub rebuilt: u32,
 }
 
 impl PairWatch {
     pub(super) fn new(a: u32, b: u32) -> Self {
-        Self { a, b, quiet: f64::NEG_INFINITY }
+        Self { a, b, mark: f64::NEG_INFINITY }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
         (self.a, self.b)
     }
 
-    /// Whether the pair needs work: its list may lack something, or something in it may touch.
+    /// What the bodies may move until the list may lack something, m; not positive when it may.
     #[inline]
-    pub(super) fn alert(&self, odometers: &[f64]) -> bool {
-        self.travelled(odometers) > self.quiet
-    }
-
-    #[inline]
-    fn travelled(&self, odometers: &[f64]) -> f64 {
-        odometers[self.a as usize] + odometers[self.b as usize]
+    pub(super) fn left(&self, odometers: &[f64]) -> f64 {
+        self.mark - (odometers[self.a as usize] + odometers[self.b as usize])
     }
 }
 
-impl BodyPair {
+impl PairList {
     pub(super) fn new() -> Self {
-        Self { mark: f64::NEG_INFINITY, links: SmallVec::new(), listed: Lease::NONE, axis: Vector3::zeros() }
+        Self { listed: Lease::NONE, axis: Vector3::zeros() }
     }
 
-    /// Whether the list may lack something.
-    #[inline]
-    pub(super) fn worn(&self, watch: &PairWatch, odometers: &[f64]) -> bool {
-        watch.travelled(odometers) > self.mark
-    }
-
-    /// Hands what touches to `batch` and `memory`; looks after a `worn` list first.
+    /// Sees whether the list of `watch` is still complete, and makes it anew if not. Returns what the bodies may move
+    /// from now on, m.
     #[inline(always)]
-    pub(super) fn look(
+    pub(super) fn renew(
         &mut self,
         watch: &mut PairWatch,
-        worn: bool,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
-        memory: &mut Memory,
-        batch: &mut Batch,
-    ) {
+        links: &mut Links,
+    ) -> f64 {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
-        let offset = mb.position - ma.position;
-        let travelled = watch.travelled(setting.odometers);
-        if worn {
-            let at = mb.seen_from(ma);
-            let mut left = self.listed.left(&at, ob.reach);
-            if !self.listed.holds(left) {
-                let skin = skin(setting, ma, mb, oa.reach + ob.reach);
-                self.list([oa, ob], at, skin, scratch);
-                left = self.listed.allowance;
-                scratch.rebuilt += 1;
-            }
-            self.mark = travelled + left;
+        let at = mb.seen_from(ma);
+        let mut left = self.listed.left(&at, ob.reach);
+        if !self.listed.holds(left) {
+            let skin = skin(setting, ma, mb, oa.reach + ob.reach);
+            self.list([oa, ob], at, skin, scratch);
+            links.replace(watch.key(), &scratch.spheres);
+            left = self.listed.allowance;
+            scratch.rebuilt += 1;
         }
-        let Scratch { places, .. } = scratch;
-        places.clear();
-        let mut gap = f64::INFINITY;
-        for &(i, j) in &self.links {
-            let (ball_a, ball_b) = (&oa.balls[i as usize], &ob.balls[j as usize]);
-            let arm = ma.rotation * ball_a.center;
-            let between = offset + mb.rotation * ball_b.center - arm;
-            let reach = ball_a.radius + ball_b.radius;
-            let distance2 = between.norm_squared();
-            if distance2 >= reach * reach {
-                gap = gap.min(distance2.sqrt() - reach);
-                continue;
-            }
-            places.push(Place {
-                arm,
-                between: if distance2 > 0.0 { between } else { Vector3::y() * f64::EPSILON },
-                reach,
-                radius: ball_a.radius,
-                curvature: ball_a.curvature + ball_b.curvature,
-                sharpness: ball_a.curvature.max(ball_b.curvature),
-                spring: memory.recall((watch.a, watch.b, i, j)),
-            });
-        }
-        if places.is_empty() {
-            watch.quiet = self.mark.min(travelled + gap);
-            return;
-        }
-        watch.quiet = f64::NEG_INFINITY;
-        let law = setting.law(setting.bodies[a].material, setting.bodies[b].material);
-        batch.take((watch.a, watch.b), 0, law, (&setting.side(a), &setting.side(b)), places);
+        watch.mark = setting.odometers[a] + setting.odometers[b] + left;
+        left
     }
 
     /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.
     #[inline(always)]
     fn list(&mut self, [oa, ob]: [&Outline; 2], at: Relative, skin: f64, scratch: &mut Scratch) {
-        let Scratch { extents: [of_a, of_b], near, .. } = scratch;
+        let Scratch { extents: [of_a, of_b], near, spheres, .. } = scratch;
         if self.axis == Vector3::zeros() {
             self.axis = at.position.try_normalize(0.0).unwrap_or_else(Vector3::y);
         }
@@ -197,7 +164,7 @@ impl BodyPair {
         let between = apart.dot(&to_f32(&self.axis)) - of_a.most - of_b.most - slack;
         let skin = skin as f32;
         self.listed = Lease { at, allowance: f64::from(skin.max(between)) };
-        self.links.clear();
+        spheres.clear();
         let depth = skin - between;
         if depth <= 0.0 {
             return;
@@ -210,7 +177,7 @@ impl BodyPair {
         let mut nearest = (f32::INFINITY, to_f32(&self.axis));
         of_a.foremost(depth, |i| {
             let [x, y, z, radius] = oa.eights[i / 8].map(|row| row[i % 8]);
-            near.against(&Vector3::new(x, y, z), radius, &mut nearest, |j| self.links.push((i as u16, j)));
+            near.against(&Vector3::new(x, y, z), radius, &mut nearest, |j| spheres.push((i as u16, j)));
         });
         self.axis = nearest.1.map(f64::from).try_normalize(0.0).unwrap_or(self.axis);
     }

@@ -5,8 +5,8 @@
 use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
 use super::law::PairLaw;
-use super::memory::Memory;
-use super::pairs::{BodyPair, PairWatch, Scratch, Setting};
+use super::links::Links;
+use super::pairs::{PairList, PairWatch, Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
@@ -21,8 +21,8 @@ const BATCH: usize = 64;
 pub(super) struct Desk {
     pub scratch: Scratch,
     batch: Batch,
-    /// Of the contacts between bodies.
-    pub memory: Memory,
+    /// Of the bodies' spheres.
+    pub links: Links,
     pub touching: Vec<Exchange>,
     /// Contact by contact, when asked for.
     pub presses: Vec<Press>,
@@ -30,8 +30,10 @@ pub(super) struct Desk {
 
 /// The pairs that one task looks at.
 pub(super) struct PairTask<'a> {
+    /// Distance that any body can have moved when each pair must be looked at, m.
+    pub wakes: &'a mut [f64],
     pub watches: &'a mut [PairWatch],
-    pub lists: &'a mut [Box<BodyPair>],
+    pub lists: &'a mut [Box<PairList>],
     pub desk: &'a mut Desk,
     pub setting: &'a Setting<'a>,
     pub laws: &'a [PairLaw],
@@ -44,31 +46,36 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { watches, lists, setting, .. } = self;
-        let Desk { scratch, batch, memory, touching, presses } = self.desk;
+        let Self { wakes, watches, lists, setting, .. } = self;
+        let Desk { scratch, batch, links, touching, presses } = self.desk;
         touching.clear();
         presses.clear();
-        memory.turn_over();
-        let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
-        // Alone, so that the lists are fetched from memory side by side.
         let mut alert = std::mem::take(&mut scratch.alert);
-        alert.clear();
-        alert.extend(
-            watches
-                .iter()
-                .zip(lists.iter())
-                .enumerate()
-                .filter(|(_, (watch, _))| watch.alert(setting.odometers))
-                .map(|(k, (watch, list))| (k as u32, list.worn(watch, setting.odometers))),
-        );
-        for (at, &(k, worn)) in alert.iter().enumerate() {
+        find(&mut alert, wakes.iter().map(|wake| setting.pace > *wake));
+        for &k in &alert {
             let k = k as usize;
-            lists[k].look(&mut watches[k], worn, setting, scratch, memory, batch);
-            if batch.len() >= BATCH || at + 1 == alert.len() {
-                let sides = |a: u32, b: u32| (setting.side(a as usize), setting.side(b as usize));
+            let mut left = watches[k].left(setting.odometers);
+            if left <= 0.0 {
+                left = lists[k].renew(&mut watches[k], setting, scratch, links);
+            }
+            wakes[k] = setting.pace + 0.5 * left;
+        }
+        scratch.alert = alert;
+        links.replaced();
+        links.touch(setting);
+        let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
+        let sides = |a: u32, b: u32| (setting.side(a as usize), setting.side(b as usize));
+        let mut first = 0;
+        while first < links.touching() {
+            let (range, (a, b)) = links.meeting(first);
+            first = range.end;
+            let (side_a, side_b) = sides(a, b);
+            let law = setting.law_of(a as usize, b as usize);
+            batch.take((a, b), 0, law, (&side_a, &side_b), links.places(range, setting));
+            if batch.len() >= BATCH || first == links.touching() {
                 batch.work_out(self.laws, &rule, sides, |exchange, _, springs| {
                     touching.push(exchange);
-                    memory.keep(springs);
+                    links.keep(springs);
                 });
                 if self.keep_contacts {
                     presses.extend(batch.presses(self.laws, setting.dt));
@@ -76,8 +83,19 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
                 batch.clear();
             }
         }
-        scratch.alert = alert;
     }
+}
+
+/// Fills `found` with the numbers of those that are `true`, without a branch for each.
+#[inline(always)]
+fn find(found: &mut Vec<u32>, each: impl ExactSizeIterator<Item = bool>) {
+    found.resize(each.len(), 0);
+    let mut count = 0;
+    for (k, yes) in each.enumerate() {
+        found[count] = k as u32;
+        count += usize::from(yes);
+    }
+    found.truncate(count);
 }
 
 /// The walls that one task looks at.

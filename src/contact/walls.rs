@@ -264,7 +264,7 @@ impl WallList {
         if !places.is_empty() {
             let law = setting.law(constants.material, boundary.material);
             let sides = (&setting.side(body), &Side::surface(surface));
-            batch.take((watch.body, watch.surface), list, law, sides, places);
+            batch.take((watch.body, watch.surface), list, law, sides, places.iter().copied());
         }
     }
 

@@ -245,13 +245,13 @@ impl Simulation {
 
     fn drift(&mut self, dt: f64) {
         let carrier = self.carrier().spin;
-        for (k, (body, motion)) in self.bodies.iter_mut().zip(&mut self.motions).enumerate() {
+        let paths = self.bodies.iter_mut().zip(&mut self.motions).map(|(body, motion)| {
             body.kick(0.5 * dt);
             let middle = motion.position + body.velocity * (0.5 * dt);
             let (moved, turned) = body.drift(motion, dt);
-            let moved = (moved - carrier.cross(&middle) * dt).norm();
-            self.world.travel(k, moved, (turned - carrier * dt).norm());
-        }
+            ((moved - carrier.cross(&middle) * dt).norm(), (turned - carrier * dt).norm())
+        });
+        self.world.travel(paths);
         self.step += 1;
         self.move_surfaces();
     }

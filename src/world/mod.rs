@@ -35,6 +35,8 @@ pub struct World {
     tracks: Vec<Track>,
     /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
     odometers: Vec<f64>,
+    /// Distance that any of them can have moved so far, m.
+    pace: f64,
     near: Vec<(u32, u32)>,
 }
 
@@ -77,6 +79,7 @@ impl Clone for World {
             surfaces: self.surfaces.clone(),
             tracks: self.tracks.clone(),
             odometers: self.odometers.clone(),
+            pace: self.pace,
             near: self.near.clone(),
             ..Self::new()
         }
@@ -104,6 +107,7 @@ impl World {
             surfaces: Vec::new(),
             tracks: Vec::new(),
             odometers: Vec::new(),
+            pace: 0.0,
             near: Vec::new(),
         }
     }
@@ -154,10 +158,20 @@ impl World {
         index
     }
 
-    /// Tells the world that a tablet moved by `moved` m and turned by `turned` rad against the carrier.
-    #[inline]
-    pub fn travel(&mut self, body: usize, moved: f64, turned: f64) {
-        self.odometers[body] += tuning::SAFETY * (moved + turned * self.tracks[body].reach);
+    /// Tells the world how far each tablet moved, m, and turned, rad, against the carrier in a step.
+    pub fn travel(&mut self, paths: impl Iterator<Item = (f64, f64)>) {
+        let mut farthest = 0.0_f64;
+        for ((odometer, track), (moved, turned)) in self.odometers.iter_mut().zip(&self.tracks).zip(paths) {
+            let path = tuning::SAFETY * (moved + turned * track.reach);
+            *odometer += path;
+            farthest = farthest.max(path);
+        }
+        self.pace += farthest;
+    }
+
+    /// Distance that any tablet's farthest sphere centre can have moved against the carrier so far, m.
+    pub fn pace(&self) -> f64 {
+        self.pace
     }
 
     /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
