@@ -10,7 +10,7 @@
 //! which slides f·p away. What of the work is neither slid away nor in the springs afterwards is the change of stiffness.
 
 use super::field::{ContactField, Partner};
-use super::tasks::Desk;
+use super::tasks::Findings;
 use super::law::{PairLaw, Spring};
 use crate::scene::TangentialLaw;
 use nalgebra::Vector3;
@@ -69,14 +69,14 @@ impl ContactField {
             press,
             law: &self.laws[press.law],
         };
-        let touching = |desk: &'a Desk| desk.links.all.iter().filter(|link| link.touched()).zip(&desk.presses);
-        let pairs = self.desks.iter().flat_map(touching).map(move |(link, press)| {
+        let touching = |found: &'a Findings| found.links.iter().filter(|link| link.touched()).zip(&found.presses);
+        let pairs = self.found.iter().flat_map(touching).map(move |(link, press)| {
             state(press, link.a, Partner::Body(link.b as usize), (link.i.into(), link.j.into()))
         });
         let grips = self.wall_watches.iter().zip(&self.walls).flat_map(|(watch, list)| {
             list.grips.iter().filter(|grip| grip.touching).map(move |grip| (watch, grip))
         });
-        let presses = self.wall_desks.iter().flat_map(|desk| &desk.presses);
+        let presses = self.found_at_walls.iter().flat_map(|found| &found.presses);
         pairs.chain(grips.zip(presses).map(move |((watch, grip), press)| {
             let partner = Partner::Surface(watch.surface as usize);
             state(press, watch.body, partner, (u32::from(grip.sphere), grip.patch))

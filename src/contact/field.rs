@@ -1,11 +1,12 @@
 //! All contacts of a run.
 
 use super::body::{BodyConstants, Outline};
+use super::frames::Frame;
 use super::law::PairLaw;
-use super::links::{Link, Links};
+use super::links::Link;
 use super::pairs::{PairList, PairWatch, Setting};
 use super::surface::Surface;
-use super::tasks::{Desk, PairTask, WallTask};
+use super::tasks::{DESK, Findings, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::{DampingMass, Scene};
 use crate::shapes::{SurfaceMesh, TabletShape};
@@ -65,6 +66,7 @@ pub struct Tally {
 pub struct ContactField {
     outlines: Vec<Outline>,
     bodies: Vec<BodyConstants>,
+    frames: Vec<Frame>,
     pub(super) laws: Vec<PairLaw>,
     materials: usize,
     damping: DampingMass,
@@ -81,10 +83,10 @@ pub struct ContactField {
     pub(super) wall_watches: Vec<WallWatch>,
     /// The lists of `wall_watches`, in the same order.
     pub(super) walls: Vec<WallList>,
-    /// One for each task over pairs.
-    pub(super) desks: Vec<Desk>,
-    /// One for each task over walls.
-    pub(super) wall_desks: Vec<Desk>,
+    /// Of each task over pairs.
+    pub(super) found: Vec<Findings>,
+    /// Of each task over walls.
+    pub(super) found_at_walls: Vec<Findings>,
     /// Torque on each surface about its own origin in the last step, N m.
     surface_torques: Vec<Vector3<f64>>,
 }
@@ -102,6 +104,7 @@ impl ContactField {
         Self {
             outlines,
             bodies: Vec::new(),
+            frames: Vec::new(),
             laws: laws.collect(),
             materials: n,
             damping: scene.contact.damping_mass,
@@ -113,8 +116,8 @@ impl ContactField {
             boundaries: Vec::new(),
             wall_watches: Vec::new(),
             walls: Vec::new(),
-            desks: Vec::new(),
-            wall_desks: Vec::new(),
+            found: Vec::new(),
+            found_at_walls: Vec::new(),
             surface_torques: Vec::new(),
         }
     }
@@ -159,20 +162,20 @@ impl ContactField {
             same.unwrap_or_else(new)
         });
         ((self.watches, self.wakes), self.pairs) = kept.unzip();
-        let mut links = self.desks.iter_mut().flat_map(|desk| desk.links.all.drain(..)).peekable();
+        let mut links = self.found.iter_mut().flat_map(|found| found.links.drain(..)).peekable();
         let sequences = self.watches.chunks(CHUNK).map(|chunk| {
             let kept = chunk.iter().flat_map(|watch| {
                 while links.next_if(|link| link.bodies() < watch.key()).is_some() {}
                 std::iter::from_fn(|| links.next_if(|link| link.bodies() == watch.key()))
                     .collect::<SmallVec<[Link; 16]>>()
             });
-            Links::from(kept.collect::<Vec<_>>())
+            kept.collect::<Vec<_>>()
         });
         let sequences: Vec<_> = sequences.collect();
         drop(links);
-        self.desks.resize_with(sequences.len(), Desk::default);
-        for (desk, links) in self.desks.iter_mut().zip(sequences) {
-            desk.links = links;
+        self.found.resize_with(sequences.len(), Findings::default);
+        for (found, links) in self.found.iter_mut().zip(sequences) {
+            found.links = links;
         }
     }
 
@@ -189,10 +192,13 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
+        self.frames.clear();
+        self.frames.extend(motions.iter().zip(&self.bodies).map(|(motion, body)| Frame::new(motion, body)));
         let setting = Setting {
             outlines: &self.outlines,
             bodies: &self.bodies,
             motions,
+            frames: &self.frames,
             odometers: world.odometers(),
             pace: world.pace(),
             materials: self.materials,
@@ -201,22 +207,28 @@ impl ContactField {
         };
         let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
         let (setting, keep_contacts) = (&setting, self.keep_contacts);
-        let pairs = |(((wakes, watches), lists), desk)| {
-            let task = PairTask { wakes, watches, lists, desk, setting, laws, damping, keep_contacts };
-            pulp::Arch::new().dispatch(task);
+        let pairs = |(((wakes, watches), lists), findings)| {
+            DESK.with_borrow_mut(|desk| {
+                let task =
+                    PairTask { wakes, watches, lists, desk, findings, setting, laws, damping, keep_contacts };
+                pulp::Arch::new().dispatch(task);
+            });
         };
-        let walls = |((watches, lists), desk)| {
-            let task =
-                WallTask { watches, lists, desk, setting, laws, damping, keep_contacts, boundaries, world };
-            pulp::Arch::new().dispatch(task);
+        let walls = |((watches, lists), findings)| {
+            DESK.with_borrow_mut(|desk| {
+                let task = WallTask {
+                    watches, lists, desk, findings, setting, laws, damping, keep_contacts, boundaries, world,
+                };
+                pulp::Arch::new().dispatch(task);
+            });
         };
-        self.wall_desks.resize_with(self.walls.len().div_ceil(CHUNK), Desk::default);
+        self.found_at_walls.resize_with(self.walls.len().div_ceil(CHUNK), Findings::default);
         let watches = self.wakes.par_chunks_mut(CHUNK).zip(self.watches.par_chunks_mut(CHUNK));
         let pair_lists = watches.zip(self.pairs.par_chunks_mut(CHUNK));
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
         rayon::join(
-            || pair_lists.zip(&mut self.desks).for_each(pairs),
-            || wall_lists.zip(&mut self.wall_desks).for_each(walls),
+            || pair_lists.zip(&mut self.found).for_each(pairs),
+            || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
         );
         self.gather(wrenches)
     }
@@ -227,7 +239,7 @@ impl ContactField {
         for torque in &mut self.surface_torques {
             *torque = Vector3::zeros();
         }
-        for exchange in self.wall_desks.iter().flat_map(|desk| &desk.touching) {
+        for exchange in self.found_at_walls.iter().flat_map(|found| &found.touching) {
             let body = &mut wrenches[exchange.a as usize];
             body.force -= exchange.force;
             body.torque += exchange.torque_a;
@@ -235,9 +247,9 @@ impl ContactField {
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
         }
-        for desk in &mut self.desks {
-            tally.rebuilt += std::mem::take(&mut desk.scratch.rebuilt);
-            for exchange in &desk.touching {
+        for found in &self.found {
+            tally.rebuilt += found.rebuilt;
+            for exchange in &found.touching {
                 let a = &mut wrenches[exchange.a as usize];
                 a.force -= exchange.force;
                 a.torque += exchange.torque_a;
@@ -253,9 +265,9 @@ impl ContactField {
 
     /// The deepest contact of the last step: its body, and the other body or the surface.
     pub fn deepest(&self) -> Option<(usize, Partner)> {
-        let pairs = self.desks.iter().flat_map(|desk| &desk.touching);
+        let pairs = self.found.iter().flat_map(|found| &found.touching);
         let pairs = pairs.map(|e| (e.deepest, e.a, Partner::Body(e.b as usize)));
-        let walls = self.wall_desks.iter().flat_map(|desk| &desk.touching);
+        let walls = self.found_at_walls.iter().flat_map(|found| &found.touching);
         let walls = walls.map(|e| (e.deepest, e.a, Partner::Surface(e.b as usize)));
         let deepest = pairs.chain(walls).max_by(|a, b| a.0.total_cmp(&b.0));
         deepest.map(|(_, body, partner)| (body as usize, partner))
@@ -268,7 +280,7 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let links = self.desks.iter().flat_map(|desk| &desk.links.all).filter(|link| link.touched());
+        let links = self.found.iter().flat_map(|found| &found.links).filter(|link| link.touched());
         let pairs = links.map(|link| (link.a, link.b, link.i.into(), link.j.into(), link.spring.stretch));
         let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
             let touching = list.grips.iter().filter(|g| g.touching);

@@ -1,6 +1,7 @@
 //! The sphere pairs of near bodies that may touch, with their springs, in one sequence: read through once a step.
 
 use super::batch::Place;
+use super::frames::{Four, add_less};
 use super::law::Spring;
 use super::pairs::Setting;
 use nalgebra::Vector3;
@@ -30,7 +31,7 @@ impl Link {
     }
 }
 
-/// The links of many bodies, sorted by bodies and spheres.
+/// The links of many bodies, sorted by bodies and spheres, while they are worked on.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Links {
     pub all: Vec<Link>,
@@ -49,15 +50,9 @@ struct Touching {
     /// Place in the sequence.
     link: usize,
     /// From a's centre of mass to the centre of its sphere, m.
-    arm: Vector3<f64>,
+    arm: Four,
     /// From there to the centre of b's sphere, m.
-    between: Vector3<f64>,
-}
-
-impl From<Vec<Link>> for Links {
-    fn from(all: Vec<Link>) -> Self {
-        Self { all, ..Self::default() }
-    }
+    between: Four,
 }
 
 impl Links {
@@ -93,13 +88,14 @@ impl Links {
         self.touching.resize(self.all.len(), Touching::default());
         let mut found = 0;
         for (k, link) in self.all.iter_mut().enumerate() {
-            let (a, b) = (link.a as usize, link.b as usize);
-            let (ball_a, ball_b) = setting.balls(link);
-            let (motion_a, motion_b) = (&setting.motions[a], &setting.motions[b]);
-            let arm = motion_a.rotation * ball_a.center;
-            let between = motion_b.position - motion_a.position + motion_b.rotation * ball_b.center - arm;
+            let (a, b) = (&setting.frames[link.a as usize], &setting.frames[link.b as usize]);
+            let ball_a = &setting.outlines[a.shape].balls[link.i as usize];
+            let ball_b = &setting.outlines[b.shape].balls[link.j as usize];
+            let arm = a.turn(&ball_a.center);
+            let between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
+            let [x, y, z, _] = between;
             let reach = ball_a.radius + ball_b.radius;
-            let touches = between.norm_squared() < reach * reach;
+            let touches = x * x + y * y + z * z < reach * reach;
             self.touching[found] = Touching { link: k, arm, between };
             found += usize::from(touches);
             link.spring = if touches { link.spring } else { Spring::default() };
@@ -128,6 +124,7 @@ impl Links {
         self.touching[range].iter().map(|&Touching { link, arm, between }| {
             let link = &self.all[link];
             let (ball_a, ball_b) = setting.balls(link);
+            let [arm, between] = [arm, between].map(|[x, y, z, _]| Vector3::new(x, y, z));
             Place {
                 arm,
                 between: if between == Vector3::zeros() { Vector3::y() * f64::EPSILON } else { between },

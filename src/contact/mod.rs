@@ -9,6 +9,7 @@ mod body;
 mod energy;
 mod extents;
 mod field;
+mod frames;
 #[cfg(test)]
 mod harvest;
 mod law;

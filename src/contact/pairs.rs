@@ -11,6 +11,7 @@
 use super::batch::Place;
 use super::body::{Ball, BodyConstants, Eight, Outline};
 use super::extents::Extents;
+use super::frames::Frame;
 use super::lease::Lease;
 use super::links::{Link, Links};
 use super::side::Side;
@@ -41,6 +42,7 @@ pub(super) struct Setting<'a> {
     pub outlines: &'a [Outline],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
+    pub frames: &'a [Frame],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
     /// Distance that any body can have moved so far, m.
@@ -97,8 +99,6 @@ pub(super) struct Scratch {
     pub facets: Vec<u32>,
     /// Pairs to look at.
     pub alert: Vec<u32>,
-    /// Lists built anew so far.
-    pub rebuilt: u32,
 }
 
 impl PairWatch {
@@ -131,6 +131,7 @@ impl PairList {
         setting: &Setting<'_>,
         scratch: &mut Scratch,
         links: &mut Links,
+        rebuilt: &mut u32,
     ) -> f64 {
         let (a, b) = (watch.a as usize, watch.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
@@ -142,7 +143,7 @@ impl PairList {
             self.list([oa, ob], at, skin, scratch);
             links.replace(watch.key(), &scratch.spheres);
             left = self.listed.allowance;
-            scratch.rebuilt += 1;
+            *rebuilt += 1;
         }
         watch.mark = setting.odometers[a] + setting.odometers[b] + left;
         left
@@ -265,4 +266,4 @@ fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, reach: f64) -> f64 {
 const SKIN: (f64, f64) = (0.3, 5.0);
 /// A wide skin makes lists long, a narrow one makes them anew often: at skin s and relative speed v the one costs as
 /// s, the other as v dt/s, and both together least at s² = v dt L. This is L, in common skins.
-const LENGTH: f64 = 8.0;
+const LENGTH: f64 = 30.0;

@@ -5,27 +5,41 @@
 use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
 use super::law::PairLaw;
-use super::links::Links;
+use super::links::{Link, Links};
 use super::pairs::{PairList, PairWatch, Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
 use crate::world::World;
 use nalgebra::Vector3;
+use std::cell::RefCell;
 
 /// Contacts that are worked out together at least: what they need stays in the nearest memory.
 const BATCH: usize = 64;
 
-/// What one task works in, and what it found in the last step.
-#[derive(Debug, Clone, Default)]
+/// What a thread works in: used by one task after another, so that it stays in the nearest memory.
+#[derive(Debug, Default)]
 pub(super) struct Desk {
-    pub scratch: Scratch,
+    scratch: Scratch,
     batch: Batch,
-    /// Of the bodies' spheres.
-    pub links: Links,
+    links: Links,
+}
+
+thread_local! {
+    /// The desk of this thread.
+    pub(super) static DESK: RefCell<Desk> = RefCell::default();
+}
+
+/// What one task found in the last step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Findings {
+    /// Spheres of its bodies that may touch.
+    pub links: Vec<Link>,
     pub touching: Vec<Exchange>,
     /// Contact by contact, when asked for.
     pub presses: Vec<Press>,
+    /// Lists built anew.
+    pub rebuilt: u32,
 }
 
 /// The pairs that one task looks at.
@@ -35,6 +49,7 @@ pub(super) struct PairTask<'a> {
     pub watches: &'a mut [PairWatch],
     pub lists: &'a mut [Box<PairList>],
     pub desk: &'a mut Desk,
+    pub findings: &'a mut Findings,
     pub setting: &'a Setting<'a>,
     pub laws: &'a [PairLaw],
     pub damping: DampingMass,
@@ -47,16 +62,19 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { wakes, watches, lists, setting, .. } = self;
-        let Desk { scratch, batch, links, touching, presses } = self.desk;
+        let Desk { scratch, batch, links } = self.desk;
+        let Findings { touching, presses, rebuilt, .. } = self.findings;
         touching.clear();
         presses.clear();
+        *rebuilt = 0;
+        std::mem::swap(&mut links.all, &mut self.findings.links);
         let mut alert = std::mem::take(&mut scratch.alert);
         find(&mut alert, wakes.iter().map(|wake| setting.pace > *wake));
         for &k in &alert {
             let k = k as usize;
             let mut left = watches[k].left(setting.odometers);
             if left <= 0.0 {
-                left = lists[k].renew(&mut watches[k], setting, scratch, links);
+                left = lists[k].renew(&mut watches[k], setting, scratch, links, rebuilt);
             }
             wakes[k] = setting.pace + 0.5 * left;
         }
@@ -83,6 +101,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
                 batch.clear();
             }
         }
+        std::mem::swap(&mut links.all, &mut self.findings.links);
     }
 }
 
@@ -103,6 +122,7 @@ pub(super) struct WallTask<'a> {
     pub watches: &'a mut [WallWatch],
     pub lists: &'a mut [WallList],
     pub desk: &'a mut Desk,
+    pub findings: &'a mut Findings,
     pub setting: &'a Setting<'a>,
     pub laws: &'a [PairLaw],
     pub damping: DampingMass,
@@ -117,7 +137,8 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { watches, lists, setting, boundaries, world, .. } = self;
-        let Desk { scratch, batch, touching, presses, .. } = self.desk;
+        let Desk { scratch, batch, .. } = self.desk;
+        let Findings { touching, presses, .. } = self.findings;
         touching.clear();
         presses.clear();
         let rule = Rule { damping: self.damping, inside: 0.0, dt: setting.dt };
