@@ -10,7 +10,7 @@
 //! which slides f·p away. What of the work is neither slid away nor in the springs afterwards is the change of stiffness.
 
 use super::field::{ContactField, Partner};
-use super::tasks::Findings;
+use super::groups::Group;
 use super::law::{PairLaw, Spring};
 use crate::scene::TangentialLaw;
 use nalgebra::Vector3;
@@ -69,8 +69,10 @@ impl ContactField {
             press,
             law: &self.laws[press.law],
         };
-        let touching = |found: &'a Findings| found.links.iter().filter(|link| link.touched()).zip(&found.presses);
-        let pairs = self.found.iter().flat_map(touching).map(move |(link, press)| {
+        let touching = |group: &'a Group| {
+            group.links.iter().filter(|link| link.touched()).zip(&group.findings.presses)
+        };
+        let pairs = self.groups.iter().flat_map(touching).map(move |(link, press)| {
             state(press, link.a, Partner::Body(link.b as usize), (link.i.into(), link.j.into()))
         });
         let grips = self.wall_watches.iter().zip(&self.walls).flat_map(|(watch, list)| {

@@ -2,9 +2,9 @@
 
 use super::body::{BodyConstants, Outline};
 use super::frames::Frame;
+use super::groups::{self, Group};
 use super::law::PairLaw;
-use super::links::Link;
-use super::pairs::{PairList, PairWatch, Setting};
+use super::pairs::Setting;
 use super::surface::Surface;
 use super::tasks::{DESK, Findings, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
@@ -13,12 +13,11 @@ use crate::shapes::{SurfaceMesh, TabletShape};
 use crate::world::{Motion, World};
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use smallvec::SmallVec;
 
 /// The common skin of lists, as a share of the largest bounding radius. Small skins are used up quickly and lists are
 /// rebuilt often; large ones hold many pairs that do not touch.
 const SKIN: f64 = 0.02;
-/// Pairs that one task takes: a fixed number, so that results do not depend on the number of threads.
+/// Bodies whose walls one task takes: a fixed number, so that results do not depend on the number of threads.
 const CHUNK: usize = 512;
 
 /// Force and torque on one body.
@@ -73,18 +72,12 @@ pub struct ContactField {
     /// Whether single contacts are kept for [`ContactField::contacts`].
     pub(super) keep_contacts: bool,
     skin: f64,
-    watches: Vec<PairWatch>,
-    /// Distance that any body can have moved when each of `watches` must be looked at, m.
-    wakes: Vec<f64>,
-    /// The lists of `watches`, in the same order.
-    #[expect(clippy::vec_box, reason = "lists are large and change places at every search")]
-    pairs: Vec<Box<PairList>>,
+    /// Of each task over pairs.
+    pub(super) groups: Vec<Group>,
     boundaries: Vec<Boundary>,
     pub(super) wall_watches: Vec<WallWatch>,
     /// The lists of `wall_watches`, in the same order.
     pub(super) walls: Vec<WallList>,
-    /// Of each task over pairs.
-    pub(super) found: Vec<Findings>,
     /// Of each task over walls.
     pub(super) found_at_walls: Vec<Findings>,
     /// Torque on each surface about its own origin in the last step, N m.
@@ -110,13 +103,10 @@ impl ContactField {
             damping: scene.contact.damping_mass,
             keep_contacts: false,
             skin: SKIN * largest,
-            watches: Vec::new(),
-            wakes: Vec::new(),
-            pairs: Vec::new(),
+            groups: Vec::new(),
             boundaries: Vec::new(),
             wall_watches: Vec::new(),
             walls: Vec::new(),
-            found: Vec::new(),
             found_at_walls: Vec::new(),
             surface_torques: Vec::new(),
         }
@@ -151,32 +141,9 @@ impl ContactField {
         self.surface_torques.push(Vector3::zeros());
     }
 
-    /// Tells the field which bodies are near each other; lists of pairs that stay are kept. Sorted, smaller index first.
-    pub fn set_near(&mut self, near: &[(u32, u32)]) {
-        let watches = std::mem::take(&mut self.watches).into_iter().zip(std::mem::take(&mut self.wakes));
-        let mut old = watches.zip(std::mem::take(&mut self.pairs)).peekable();
-        let kept = near.iter().map(|&(a, b)| {
-            while old.next_if(|((watch, _), _)| watch.key() < (a, b)).is_some() {}
-            let same = old.next_if(|((watch, _), _)| watch.key() == (a, b));
-            let new = || ((PairWatch::new(a, b), f64::NEG_INFINITY), Box::new(PairList::new()));
-            same.unwrap_or_else(new)
-        });
-        ((self.watches, self.wakes), self.pairs) = kept.unzip();
-        let mut links = self.found.iter_mut().flat_map(|found| found.links.drain(..)).peekable();
-        let sequences = self.watches.chunks(CHUNK).map(|chunk| {
-            let kept = chunk.iter().flat_map(|watch| {
-                while links.next_if(|link| link.bodies() < watch.key()).is_some() {}
-                std::iter::from_fn(|| links.next_if(|link| link.bodies() == watch.key()))
-                    .collect::<SmallVec<[Link; 16]>>()
-            });
-            kept.collect::<Vec<_>>()
-        });
-        let sequences: Vec<_> = sequences.collect();
-        drop(links);
-        self.found.resize_with(sequences.len(), Findings::default);
-        for (found, links) in self.found.iter_mut().zip(sequences) {
-            found.links = links;
-        }
+    /// Tells the field which pairs of bodies are no longer near each other and which are now: smaller index first, sorted.
+    pub fn change_near(&mut self, parted: &[(u32, u32)], met: &[(u32, u32)]) {
+        groups::change(&mut self.groups, parted, met);
     }
 
     /// Forces and torques of all contacts, added to `wrenches` in the order of pairs and bodies whatever the number of
@@ -207,10 +174,9 @@ impl ContactField {
         };
         let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
         let (setting, keep_contacts) = (&setting, self.keep_contacts);
-        let pairs = |(((wakes, watches), lists), findings)| {
+        let pairs = |group| {
             DESK.with_borrow_mut(|desk| {
-                let task =
-                    PairTask { wakes, watches, lists, desk, findings, setting, laws, damping, keep_contacts };
+                let task = PairTask { group, desk, setting, laws, damping, keep_contacts };
                 pulp::Arch::new().dispatch(task);
             });
         };
@@ -223,11 +189,9 @@ impl ContactField {
             });
         };
         self.found_at_walls.resize_with(self.walls.len().div_ceil(CHUNK), Findings::default);
-        let watches = self.wakes.par_chunks_mut(CHUNK).zip(self.watches.par_chunks_mut(CHUNK));
-        let pair_lists = watches.zip(self.pairs.par_chunks_mut(CHUNK));
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
         rayon::join(
-            || pair_lists.zip(&mut self.found).for_each(pairs),
+            || self.groups.par_iter_mut().for_each(pairs),
             || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
         );
         self.gather(wrenches)
@@ -247,9 +211,9 @@ impl ContactField {
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
         }
-        for found in &self.found {
-            tally.rebuilt += found.rebuilt;
-            for exchange in &found.touching {
+        for Group { findings, .. } in &self.groups {
+            tally.rebuilt += findings.rebuilt;
+            for exchange in &findings.touching {
                 let a = &mut wrenches[exchange.a as usize];
                 a.force -= exchange.force;
                 a.torque += exchange.torque_a;
@@ -265,7 +229,7 @@ impl ContactField {
 
     /// The deepest contact of the last step: its body, and the other body or the surface.
     pub fn deepest(&self) -> Option<(usize, Partner)> {
-        let pairs = self.found.iter().flat_map(|found| &found.touching);
+        let pairs = self.groups.iter().flat_map(|group| &group.findings.touching);
         let pairs = pairs.map(|e| (e.deepest, e.a, Partner::Body(e.b as usize)));
         let walls = self.found_at_walls.iter().flat_map(|found| &found.touching);
         let walls = walls.map(|e| (e.deepest, e.a, Partner::Surface(e.b as usize)));
@@ -280,7 +244,7 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let links = self.found.iter().flat_map(|found| &found.links).filter(|link| link.touched());
+        let links = self.groups.iter().flat_map(|group| &group.links).filter(|link| link.touched());
         let pairs = links.map(|link| (link.a, link.b, link.i.into(), link.j.into(), link.spring.stretch));
         let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
             let touching = list.grips.iter().filter(|g| g.touching);

@@ -120,7 +120,8 @@ proptest! {
             }
             world.travel(shares.iter().map(|share| ((step * *share).norm(), (turn * *share).norm())));
             if world.must_search(&motions, &rest) {
-                field.set_near(world.search(&motions, &[rest], &rest));
+                let near = world.search(&motions, &[rest], &rest);
+                field.change_near(&near.parted, &near.met);
             }
             field.add_forces(&motions, &[rest], &world, 0.0, &mut wrenches);
             compare(&of_lists(&field), &of_rapier(&kinds, &motions))?;

@@ -10,6 +10,7 @@ mod energy;
 mod extents;
 mod field;
 mod frames;
+mod groups;
 #[cfg(test)]
 mod harvest;
 mod law;

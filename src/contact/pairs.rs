@@ -19,19 +19,14 @@ use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 use wide::f32x8;
 
-/// What is read of a near pair to know whether its list is good.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PairWatch {
+/// Two bodies, and the lease of their list; what it lists are [`Links`].
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Pair {
     /// Bodies, `a < b`.
     pub a: u32,
     pub b: u32,
     /// Sum of the odometers up to which the list is complete, m.
     mark: f64,
-}
-
-/// The list of two bodies; its sphere pairs are [`Links`].
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct PairList {
     listed: Lease,
     /// Unit vector from a to b along which their surfaces were nearest, a's axes.
     axis: Vector3<f64>,
@@ -101,9 +96,9 @@ pub(super) struct Scratch {
     pub alert: Vec<u32>,
 }
 
-impl PairWatch {
-    pub(super) fn new(a: u32, b: u32) -> Self {
-        Self { a, b, mark: f64::NEG_INFINITY }
+impl Pair {
+    pub(super) fn new((a, b): (u32, u32)) -> Self {
+        Self { a, b, mark: f64::NEG_INFINITY, listed: Lease::NONE, axis: Vector3::zeros() }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
@@ -115,38 +110,30 @@ impl PairWatch {
     pub(super) fn left(&self, odometers: &[f64]) -> f64 {
         self.mark - (odometers[self.a as usize] + odometers[self.b as usize])
     }
-}
 
-impl PairList {
-    pub(super) fn new() -> Self {
-        Self { listed: Lease::NONE, axis: Vector3::zeros() }
-    }
-
-    /// Sees whether the list of `watch` is still complete, and makes it anew if not. Returns what the bodies may move
-    /// from now on, m.
+    /// Sees whether the list is still complete, and makes it anew if not. Returns what the bodies may move from now on,
+    /// m, and whether the list is new.
     #[inline(always)]
     pub(super) fn renew(
         &mut self,
-        watch: &mut PairWatch,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
         links: &mut Links,
-        rebuilt: &mut u32,
-    ) -> f64 {
-        let (a, b) = (watch.a as usize, watch.b as usize);
+    ) -> (f64, bool) {
+        let (a, b) = (self.a as usize, self.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
         let at = mb.seen_from(ma);
         let mut left = self.listed.left(&at, ob.reach);
-        if !self.listed.holds(left) {
+        let anew = !self.listed.holds(left);
+        if anew {
             let skin = skin(setting, ma, mb, oa.reach + ob.reach);
             self.list([oa, ob], at, skin, scratch);
-            links.replace(watch.key(), &scratch.spheres);
+            links.replace(self.key(), &scratch.spheres);
             left = self.listed.allowance;
-            *rebuilt += 1;
         }
-        watch.mark = setting.odometers[a] + setting.odometers[b] + left;
-        left
+        self.mark = setting.odometers[a] + setting.odometers[b] + left;
+        (left, anew)
     }
 
     /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.

@@ -4,9 +4,10 @@
 
 use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
+use super::groups::Group;
 use super::law::PairLaw;
-use super::links::{Link, Links};
-use super::pairs::{PairList, PairWatch, Scratch, Setting};
+use super::links::Links;
+use super::pairs::{Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
@@ -33,8 +34,6 @@ thread_local! {
 /// What one task found in the last step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Findings {
-    /// Spheres of its bodies that may touch.
-    pub links: Vec<Link>,
     pub touching: Vec<Exchange>,
     /// Contact by contact, when asked for.
     pub presses: Vec<Press>,
@@ -42,14 +41,18 @@ pub(super) struct Findings {
     pub rebuilt: u32,
 }
 
+impl Findings {
+    fn clear(&mut self) {
+        self.touching.clear();
+        self.presses.clear();
+        self.rebuilt = 0;
+    }
+}
+
 /// The pairs that one task looks at.
 pub(super) struct PairTask<'a> {
-    /// Distance that any body can have moved when each pair must be looked at, m.
-    pub wakes: &'a mut [f64],
-    pub watches: &'a mut [PairWatch],
-    pub lists: &'a mut [Box<PairList>],
+    pub group: &'a mut Group,
     pub desk: &'a mut Desk,
-    pub findings: &'a mut Findings,
     pub setting: &'a Setting<'a>,
     pub laws: &'a [PairLaw],
     pub damping: DampingMass,
@@ -61,20 +64,20 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { wakes, watches, lists, setting, .. } = self;
+        let Self { setting, .. } = self;
         let Desk { scratch, batch, links } = self.desk;
-        let Findings { touching, presses, rebuilt, .. } = self.findings;
-        touching.clear();
-        presses.clear();
-        *rebuilt = 0;
-        std::mem::swap(&mut links.all, &mut self.findings.links);
+        let Group { wakes, pairs, links: kept, findings } = self.group;
+        findings.clear();
+        std::mem::swap(&mut links.all, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
         find(&mut alert, wakes.iter().map(|wake| setting.pace > *wake));
         for &k in &alert {
             let k = k as usize;
-            let mut left = watches[k].left(setting.odometers);
+            let mut left = pairs[k].left(setting.odometers);
             if left <= 0.0 {
-                left = lists[k].renew(&mut watches[k], setting, scratch, links, rebuilt);
+                let anew;
+                (left, anew) = pairs[k].renew(setting, scratch, links);
+                findings.rebuilt += u32::from(anew);
             }
             wakes[k] = setting.pace + 0.5 * left;
         }
@@ -92,16 +95,16 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
             batch.take((a, b), 0, law, (&side_a, &side_b), links.places(range, setting));
             if batch.len() >= BATCH || first == links.touching() {
                 batch.work_out(self.laws, &rule, sides, |exchange, _, springs| {
-                    touching.push(exchange);
+                    findings.touching.push(exchange);
                     links.keep(springs);
                 });
                 if self.keep_contacts {
-                    presses.extend(batch.presses(self.laws, setting.dt));
+                    findings.presses.extend(batch.presses(self.laws, setting.dt));
                 }
                 batch.clear();
             }
         }
-        std::mem::swap(&mut links.all, &mut self.findings.links);
+        std::mem::swap(&mut links.all, kept);
     }
 }
 
@@ -138,9 +141,8 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
     fn call(self) {
         let Self { watches, lists, setting, boundaries, world, .. } = self;
         let Desk { scratch, batch, .. } = self.desk;
-        let Findings { touching, presses, .. } = self.findings;
-        touching.clear();
-        presses.clear();
+        let findings = self.findings;
+        findings.clear();
         let rule = Rule { damping: self.damping, inside: 0.0, dt: setting.dt };
         let facets = |surface: &Boundary, min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
             world.facets_near(surface.mesh, min, max, out);
@@ -154,11 +156,11 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
             lists[k].look(watch, k, setting, boundary, scratch, batch);
         }
         batch.work_out(self.laws, &rule, sides, |exchange, list, springs| {
-            touching.push(exchange);
+            findings.touching.push(exchange);
             lists[list].keep(springs);
         });
         if self.keep_contacts {
-            presses.extend(batch.presses(self.laws, setting.dt));
+            findings.presses.extend(batch.presses(self.laws, setting.dt));
         }
         batch.clear();
     }

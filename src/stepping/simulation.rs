@@ -218,7 +218,7 @@ impl Simulation {
         let carrier = self.carrier();
         if self.world.must_search(&self.motions, &carrier) {
             let near = self.world.search(&self.motions, &self.surfaces[..self.meshes], &carrier);
-            self.field.set_near(near);
+            self.field.change_near(&near.parted, &near.met);
             self.stopwatch.lap(Phase::Search);
         }
         for (wrench, body) in self.wrenches.iter_mut().zip(&self.bodies) {

@@ -37,7 +37,15 @@ pub struct World {
     odometers: Vec<f64>,
     /// Distance that any of them can have moved so far, m.
     pace: f64,
-    near: Vec<(u32, u32)>,
+}
+
+/// What a search changes: pairs of bodies, smaller index first, sorted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NearChanges {
+    /// No longer near each other. A pair may be in both lists: it parted first.
+    pub parted: Vec<(u32, u32)>,
+    /// Near each other now.
+    pub met: Vec<(u32, u32)>,
 }
 
 /// What a tablet's box is worth.
@@ -80,7 +88,6 @@ impl Clone for World {
             tracks: self.tracks.clone(),
             odometers: self.odometers.clone(),
             pace: self.pace,
-            near: self.near.clone(),
             ..Self::new()
         }
     }
@@ -108,7 +115,6 @@ impl World {
             tracks: Vec::new(),
             odometers: Vec::new(),
             pace: 0.0,
-            near: Vec::new(),
         }
     }
 
@@ -191,12 +197,13 @@ impl World {
         )
     }
 
-    /// All pairs of bodies that can touch before [`World::must_search`] says so: smaller index first, sorted.
+    /// Which pairs of bodies can touch before [`World::must_search`] says so that could not by the last search, and the
+    /// other way round.
     ///
     /// Rapier's broad phase learns the boxes of bodies that have used most of their margin and tells which pairs of boxes
     /// have met or parted. Of those that met the hooks are asked at once: its narrow phase would ask them again for every
     /// pair of a moved body, and be answered that there is nothing to do.
-    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> &[(u32, u32)] {
+    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> NearChanges {
         for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
             self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
         }
@@ -231,12 +238,12 @@ impl World {
                 }
             }
         }
-        parted.sort_unstable();
-        self.near.retain(|pair| parted.binary_search(pair).is_err());
-        self.near.extend(self.hooks.take());
-        self.near.sort_unstable();
-        self.near.dedup();
-        &self.near
+        let mut met = self.hooks.take();
+        for pairs in [&mut parted, &mut met] {
+            pairs.sort_unstable();
+            pairs.dedup();
+        }
+        NearChanges { parted, met }
     }
 
     /// Fills `facets` with the facets of a surface whose boxes meet the box from `min` to `max` (surface axes, m), in no

@@ -1,0 +1,58 @@
+//! Near pairs in groups: what one task works on lies together, and a search changes few of them.
+
+use super::links::Link;
+use super::pairs::Pair;
+use super::tasks::Findings;
+
+/// Bodies whose pairs with later bodies make a group: a fixed number, so that results do not depend on the number of
+/// threads.
+const BODIES: u32 = 16;
+
+/// The pairs (a, b) of some bodies a.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Group {
+    /// Distance that any body can have moved when each of `pairs` must be looked at, m.
+    pub wakes: Vec<f64>,
+    /// In order.
+    pub pairs: Vec<Pair>,
+    /// Spheres of the pairs that may touch, in order.
+    pub links: Vec<Link>,
+    pub findings: Findings,
+}
+
+/// The group of body `a`.
+fn group(a: u32) -> usize {
+    (a / BODIES) as usize
+}
+
+/// Takes the pairs `parted` from the groups, and adds those that `met`.
+pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32, u32)]) {
+    if let Some(last) = met.iter().map(|(a, _)| group(*a)).max() {
+        groups.resize(groups.len().max(last + 1), Group::default());
+    }
+    for parted in parted.chunk_by(|x, y| group(x.0) == group(y.0)) {
+        if let Some(group) = groups.get_mut(group(parted[0].0)) {
+            let stays = |key| parted.binary_search(&key).is_err();
+            group.pairs.retain(|pair| stays(pair.key()));
+            group.links.retain(|link| stays(link.bodies()));
+            group.wake();
+        }
+    }
+    for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {
+        let group = &mut groups[group(met[0].0)];
+        for key in met {
+            if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
+                group.pairs.insert(at, Pair::new(*key));
+            }
+        }
+        group.wake();
+    }
+}
+
+impl Group {
+    /// Lets all pairs be looked at.
+    fn wake(&mut self) {
+        self.wakes.clear();
+        self.wakes.resize(self.pairs.len(), f64::NEG_INFINITY);
+    }
+}
