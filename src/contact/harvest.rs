@@ -118,7 +118,7 @@ proptest! {
                 motion.position += step * share;
                 motion.rotation = UnitQuaternion::new(turn * share).to_rotation_matrix().into_inner() * motion.rotation;
             }
-            world.travel(shares.iter().map(|share| ((step * *share).norm(), (turn * *share).norm())));
+            world.travel(&shares.map(|share| ((step * share).norm(), (turn * share).norm())));
             if world.must_search(&motions, &rest) {
                 let near = world.search(&motions, &[rest], &rest);
                 field.change_near(&near.parted, &near.met);

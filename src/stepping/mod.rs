@@ -1,6 +1,7 @@
 //! The simulation: time step, integrator, guards and the loop that hands frames to observers.
 
 mod body;
+mod drift;
 mod energy;
 mod error;
 mod filling;

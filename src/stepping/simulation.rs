@@ -1,6 +1,7 @@
 //! The loop.
 
 use super::body::Body;
+use super::drift::Drift;
 use super::energy::EnergyAudit;
 use super::error::SimulationError;
 use super::frame::BodyState;
@@ -14,6 +15,10 @@ use crate::world::{ImpulseWorld, Motion, World};
 use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+/// Bodies that one thread moves at a time.
+const CHUNK: usize = 128;
 
 /// A run: bodies, surfaces, contacts and the clock.
 #[derive(Clone)]
@@ -41,6 +46,8 @@ pub struct Simulation {
     /// Velocity and spin of each surface.
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
     wrenches: Vec<Wrench>,
+    /// How far each body moved, m, and turned, rad, against the carrier in the last step.
+    paths: Vec<(f64, f64)>,
     pub(super) rng: ChaCha8Rng,
     torque_sum: f64,
     torque_steps: u64,
@@ -89,6 +96,7 @@ impl Simulation {
             meshes: 0,
             drives: Vec::new(),
             wrenches: Vec::new(),
+            paths: Vec::new(),
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
             torque_sum: 0.0,
             torque_steps: 0,
@@ -245,13 +253,12 @@ impl Simulation {
 
     fn drift(&mut self, dt: f64) {
         let carrier = self.carrier().spin;
-        let paths = self.bodies.iter_mut().zip(&mut self.motions).map(|(body, motion)| {
-            body.kick(0.5 * dt);
-            let middle = motion.position + body.velocity * (0.5 * dt);
-            let (moved, turned) = body.drift(motion, dt);
-            ((moved - carrier.cross(&middle) * dt).norm(), (turned - carrier * dt).norm())
+        self.paths.resize(self.bodies.len(), (0.0, 0.0));
+        let bodies = self.bodies.par_chunks_mut(CHUNK).zip(self.motions.par_chunks_mut(CHUNK));
+        bodies.zip(self.paths.par_chunks_mut(CHUNK)).for_each(|((bodies, motions), paths)| {
+            pulp::Arch::new().dispatch(Drift { bodies, motions, paths, carrier, dt });
         });
-        self.world.travel(paths);
+        self.world.travel(&self.paths);
         self.step += 1;
         self.move_surfaces();
     }

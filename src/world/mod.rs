@@ -165,7 +165,7 @@ impl World {
     }
 
     /// Tells the world how far each tablet moved, m, and turned, rad, against the carrier in a step.
-    pub fn travel(&mut self, paths: impl Iterator<Item = (f64, f64)>) {
+    pub fn travel(&mut self, paths: &[(f64, f64)]) {
         let mut farthest = 0.0_f64;
         for ((odometer, track), (moved, turned)) in self.odometers.iter_mut().zip(&self.tracks).zip(paths) {
             let path = tuning::SAFETY * (moved + turned * track.reach);
