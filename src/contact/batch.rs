@@ -66,6 +66,19 @@ struct Meeting {
     offset: Vector3<f64>,
 }
 
+/// What the contacts of two bodies have in common.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shared {
+    law: usize,
+    /// Reduced mass, kg.
+    mass: f64,
+    /// Velocity of b against a at the contact point is `drift + turn × arm`.
+    drift: Vector3<f64>,
+    turn: Vector3<f64>,
+    /// Mean spin of the two bodies.
+    spin: Vector3<f64>,
+}
+
 /// Contacts of many bodies, in blocks of one law each.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Batch {
@@ -98,10 +111,8 @@ struct Block {
     curvature: Lanes,
     sharpness: Lanes,
     mass: Lanes,
-    /// Velocity of b against a at the contact point is `drift + turn × arm`.
     drift: Lanes3,
     turn: Lanes3,
-    /// Mean spin of the two bodies.
     spin: Lanes3,
     stretch: Lanes3,
     stretch_radius: Lanes,
@@ -165,51 +176,58 @@ impl Batch {
         self.len
     }
 
-    /// Takes the contacts of two bodies; `list` is where their springs belong, `law` the index of their law.
+    /// Begins the contacts of two bodies; `list` is where their springs belong, `law` the index of their law.
     #[inline(always)]
-    pub(super) fn take(
+    pub(super) fn meet(
         &mut self,
         (a, b): (u32, u32),
         list: usize,
         law: usize,
         (side_a, side_b): (&Side<'_>, &Side<'_>),
-        places: impl Iterator<Item = Place>,
-    ) {
+    ) -> Shared {
         if self.used > 0 && self.blocks[self.used - 1].law != law {
             self.len = self.used * LANES;
         }
         let (ma, mb) = (side_a.motion, side_b.motion);
         let offset = mb.position - ma.position;
-        let mass = 1.0 / (side_a.inverse_mass + side_b.inverse_mass);
-        let drift = mb.velocity - ma.velocity - mb.spin.cross(&offset);
-        let turn = mb.spin - ma.spin;
-        let spin = (ma.spin + mb.spin) * 0.5;
-        let first = self.len;
-        for place in places {
-            let (at, k) = (self.len / LANES, self.len % LANES);
-            if at == self.used {
-                if at == self.blocks.len() {
-                    self.blocks.push(EMPTY);
-                }
-                self.blocks[at].law = law;
-                self.used += 1;
-            }
-            let block = &mut self.blocks[at];
-            set(&mut block.arm, k, &place.arm);
-            set(&mut block.between, k, &place.between);
-            block.reach[k] = place.reach;
-            block.radius[k] = place.radius;
-            block.curvature[k] = place.curvature;
-            block.sharpness[k] = place.sharpness;
-            block.mass[k] = mass;
-            set(&mut block.drift, k, &drift);
-            set(&mut block.turn, k, &turn);
-            set(&mut block.spin, k, &spin);
-            set(&mut block.stretch, k, &place.spring.stretch);
-            block.stretch_radius[k] = place.spring.radius;
-            self.len += 1;
+        self.meetings.push(Meeting { a, b, list, first: self.len, count: 0, offset });
+        Shared {
+            law,
+            mass: 1.0 / (side_a.inverse_mass + side_b.inverse_mass),
+            drift: mb.velocity - ma.velocity - mb.spin.cross(&offset),
+            turn: mb.spin - ma.spin,
+            spin: (ma.spin + mb.spin) * 0.5,
         }
-        self.meetings.push(Meeting { a, b, list, first, count: self.len - first, offset });
+    }
+
+    /// Takes a contact of the two bodies that met last.
+    #[inline(always)]
+    pub(super) fn take(&mut self, shared: &Shared, place: &Place) {
+        let (at, k) = (self.len / LANES, self.len % LANES);
+        if at == self.used {
+            if at == self.blocks.len() {
+                self.blocks.push(EMPTY);
+            }
+            self.blocks[at].law = shared.law;
+            self.used += 1;
+        }
+        let block = &mut self.blocks[at];
+        set(&mut block.arm, k, &place.arm);
+        set(&mut block.between, k, &place.between);
+        block.reach[k] = place.reach;
+        block.radius[k] = place.radius;
+        block.curvature[k] = place.curvature;
+        block.sharpness[k] = place.sharpness;
+        block.mass[k] = shared.mass;
+        set(&mut block.drift, k, &shared.drift);
+        set(&mut block.turn, k, &shared.turn);
+        set(&mut block.spin, k, &shared.spin);
+        set(&mut block.stretch, k, &place.spring.stretch);
+        block.stretch_radius[k] = place.spring.radius;
+        self.len += 1;
+        if let Some(meeting) = self.meetings.last_mut() {
+            meeting.count += 1;
+        }
     }
 
     /// Forces of all contacts taken. `sides` are the two partners of a meeting; `done` gets what they do to each other,

@@ -118,23 +118,22 @@ impl Links {
         (first..first + count, met)
     }
 
-    /// Where some of the touching spheres are.
+    /// Where the touching spheres number `k` are.
     #[inline(always)]
-    pub(super) fn places(&self, range: Range<usize>, setting: &Setting<'_>) -> impl Iterator<Item = Place> {
-        self.touching[range].iter().map(|&Touching { link, arm, between }| {
-            let link = &self.all[link];
-            let (ball_a, ball_b) = setting.balls(link);
-            let [arm, between] = [arm, between].map(|[x, y, z, _]| Vector3::new(x, y, z));
-            Place {
-                arm,
-                between: if between == Vector3::zeros() { Vector3::y() * f64::EPSILON } else { between },
-                reach: ball_a.radius + ball_b.radius,
-                radius: ball_a.radius,
-                curvature: ball_a.curvature + ball_b.curvature,
-                sharpness: ball_a.curvature.max(ball_b.curvature),
-                spring: link.spring,
-            }
-        })
+    pub(super) fn place(&self, k: usize, setting: &Setting<'_>) -> Place {
+        let Touching { link, arm: [ax, ay, az, _], between: [x, y, z, _] } = self.touching[k];
+        let link = &self.all[link];
+        let (ball_a, ball_b) = setting.balls(link);
+        let between = Vector3::new(x, y, z);
+        Place {
+            arm: Vector3::new(ax, ay, az),
+            between: if between == Vector3::zeros() { Vector3::y() * f64::EPSILON } else { between },
+            reach: ball_a.radius + ball_b.radius,
+            radius: ball_a.radius,
+            curvature: ball_a.curvature + ball_b.curvature,
+            sharpness: ball_a.curvature.max(ball_b.curvature),
+            spring: link.spring,
+        }
     }
 
     /// Takes the new springs of the next contacts.

@@ -8,6 +8,9 @@ use nalgebra::Vector3;
 pub(super) struct Facet {
     corners: [Vector3<f64>; 3],
     normal: Vector3<f64>,
+    /// Of each edge k → k+1: vector in the facet's plane at right angles to it, away from the facet; and what a point of
+    /// the edge gives with it.
+    edges: [(Vector3<f64>, f64); 3],
     /// Ball about the facet: centre, m, and radius, m.
     ball: (Vector3<f64>, f64),
     patch: u32,
@@ -60,9 +63,14 @@ impl Surface {
             let corners = t.map(|v| mesh.vertices[v as usize]);
             let center = (corners[0] + corners[1] + corners[2]) / 3.0;
             let radius = corners.iter().map(|c| (c - center).norm()).fold(0.0, f64::max);
+            let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
             Facet {
                 ball: (center, radius),
-                normal: (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize(),
+                normal,
+                edges: [0, 1, 2].map(|k: usize| {
+                    let away = (corners[(k + 1) % 3] - corners[k]).cross(&normal);
+                    (away, away.dot(&corners[k]))
+                }),
                 corners,
                 patch,
                 edge_patches: [edge(0), edge(1), edge(2)],
@@ -128,10 +136,14 @@ impl Facet {
 
     /// Vector from `p` to the closest point of the triangle, and the other patches there.
     ///
-    /// Source: Ericson 2005, Real-Time Collision Detection, section 5.1.5.
+    /// Source: Ericson 2005, Real-Time Collision Detection, section 5.1.5; points above the inside of the facet, the most
+    /// frequent ones, first.
     #[inline]
     fn closest(&self, p: &Vector3<f64>) -> (Vector3<f64>, &[u32]) {
         let [a, b, c] = &self.corners;
+        if self.edges.iter().all(|(away, edge)| away.dot(p) < *edge) {
+            return (self.normal * self.normal.dot(&(a - p)), &[]);
+        }
         let (ab, ac, ap) = (b - a, c - a, p - a);
         let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
         if d1 <= 0.0 && d2 <= 0.0 {

@@ -92,7 +92,10 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
             first = range.end;
             let (side_a, side_b) = sides(a, b);
             let law = setting.law_of(a as usize, b as usize);
-            batch.take((a, b), 0, law, (&side_a, &side_b), links.places(range, setting));
+            let shared = batch.meet((a, b), 0, law, (&side_a, &side_b));
+            for k in range {
+                batch.take(&shared, &links.place(k, setting));
+            }
             if batch.len() >= BATCH || first == links.touching() {
                 batch.work_out(self.laws, &rule, sides, |exchange, _, springs| {
                     findings.touching.push(exchange);

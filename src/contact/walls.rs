@@ -264,7 +264,10 @@ impl WallList {
         if !places.is_empty() {
             let law = setting.law(constants.material, boundary.material);
             let sides = (&setting.side(body), &Side::surface(surface));
-            batch.take((watch.body, watch.surface), list, law, sides, places.iter().copied());
+            let shared = batch.meet((watch.body, watch.surface), list, law, sides);
+            for place in &*places {
+                batch.take(&shared, place);
+            }
         }
     }
 
