@@ -47,6 +47,17 @@ pub struct Spring {
     pub radius: f64,
 }
 
+impl Spring {
+    /// Forgets everything unless `touches`; no branch.
+    #[inline(always)]
+    pub(super) fn keep_if(&mut self, touches: bool) {
+        let mask = u64::from(touches).wrapping_neg();
+        for x in self.stretch.iter_mut().chain([&mut self.radius]) {
+            *x = f64::from_bits(x.to_bits() & mask);
+        }
+    }
+}
+
 /// One contact at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {

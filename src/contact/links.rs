@@ -98,7 +98,7 @@ impl Links {
             let touches = x * x + y * y + z * z < reach * reach;
             self.touching[found] = Touching { link: k, arm, between };
             found += usize::from(touches);
-            link.spring = if touches { link.spring } else { Spring::default() };
+            link.spring.keep_if(touches);
         }
         self.touching.truncate(found);
         self.sprung = 0;
