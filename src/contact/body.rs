@@ -50,6 +50,16 @@ impl Outline {
     }
 }
 
+impl Outline {
+    /// Centre and radius of a sphere.
+    #[inline(always)]
+    pub(super) fn sphere(&self, number: u16) -> [f32; 4] {
+        let (at, k) = (usize::from(number) / 8, usize::from(number) % 8);
+        let [x, y, z, radius] = &self.eights[at];
+        [x[k], y[k], z[k], radius[k]]
+    }
+}
+
 /// Constants of one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BodyConstants {

@@ -27,14 +27,15 @@ impl Extents {
         self.most = most.into_iter().fold(f32::NEG_INFINITY, f32::max);
     }
 
-    /// Calls `f` with the spheres that come within `depth`, m, of the farthest, in order.
+    /// Fills `spheres` with those that come within `depth`, m, of the farthest, in order.
     #[inline(always)]
-    pub(super) fn foremost(&self, depth: f32, mut f: impl FnMut(usize)) {
+    pub(super) fn foremost(&self, depth: f32, spheres: &mut Vec<u16>) {
+        spheres.clear();
         let from = f32x8::splat(self.most - depth);
         for (k, each) in self.each.iter().enumerate() {
             let mut lanes = f32x8::new(*each).simd_gt(from).to_bitmask();
             while lanes != 0 {
-                f(8 * k + lanes.trailing_zeros() as usize);
+                spheres.push(8 * k as u16 + lanes.trailing_zeros() as u16);
                 lanes &= lanes - 1;
             }
         }

@@ -86,6 +86,7 @@ impl Setting<'_> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scratch {
     extents: [Extents; 2],
+    foremost: Vec<u16>,
     near: Candidates,
     /// A new list.
     spheres: Vec<(u16, u16)>,
@@ -139,7 +140,7 @@ impl Pair {
     /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.
     #[inline(always)]
     fn list(&mut self, [oa, ob]: [&Outline; 2], at: Relative, skin: f64, scratch: &mut Scratch) {
-        let Scratch { extents: [of_a, of_b], near, spheres, .. } = scratch;
+        let Scratch { extents: [of_a, of_b], foremost, near, spheres, .. } = scratch;
         if self.axis == Vector3::zeros() {
             self.axis = at.position.try_normalize(0.0).unwrap_or_else(Vector3::y);
         }
@@ -158,15 +159,16 @@ impl Pair {
             return;
         }
         near.clear();
-        of_b.foremost(depth, |j| {
-            let [x, y, z, radius] = ob.eights[j / 8].map(|row| row[j % 8]);
-            near.push(j as u16, apart + turn * Vector3::new(x, y, z), radius + skin + slack);
-        });
+        of_b.foremost(depth, foremost);
+        for &j in &*foremost {
+            let [x, y, z, radius] = ob.sphere(j);
+            near.push(j, apart + turn * Vector3::new(x, y, z), radius + skin + slack);
+        }
         let mut nearest = (f32::INFINITY, to_f32(&self.axis));
-        of_a.foremost(depth, |i| {
-            let [x, y, z, radius] = oa.eights[i / 8].map(|row| row[i % 8]);
-            near.against(&Vector3::new(x, y, z), radius, &mut nearest, |j| spheres.push((i as u16, j)));
-        });
+        of_a.foremost(depth, foremost);
+        for &i in &*foremost {
+            near.against(i, oa.sphere(i), &mut nearest, spheres);
+        }
         self.axis = nearest.1.map(f64::from).try_normalize(0.0).unwrap_or(self.axis);
     }
 }
@@ -199,20 +201,20 @@ impl Candidates {
         self.numbers.push(number);
     }
 
-    /// Calls `f` with the numbers of those that meet a sphere, in order. `nearest` holds how near, m² (the square of the
-    /// distance less that of the radii), and in which direction the nearest so far was.
+    /// Lists those that meet sphere `i`, in order. `nearest` holds how near, m² (the square of the distance less that of
+    /// the radii), and in which direction the nearest so far was.
     #[inline(always)]
     fn against(
         &self,
-        center: &Vector3<f32>,
-        radius: f32,
+        i: u16,
+        [cx, cy, cz, radius]: [f32; 4],
         nearest: &mut (f32, Vector3<f32>),
-        mut f: impl FnMut(u16),
+        list: &mut Vec<(u16, u16)>,
     ) {
         for (at, [x, y, z, radii]) in self.eights.iter().enumerate() {
             let mut excess = [0.0; 8];
             for k in 0..8 {
-                let (dx, dy, dz) = (x[k] - center.x, y[k] - center.y, z[k] - center.z);
+                let (dx, dy, dz) = (x[k] - cx, y[k] - cy, z[k] - cz);
                 let reach = radius + radii[k];
                 excess[k] = dx * dx + dy * dy + dz * dz - reach * reach;
             }
@@ -221,13 +223,13 @@ impl Candidates {
             while nearer != 0 {
                 let k = nearer.trailing_zeros() as usize;
                 if excess[k] < nearest.0 {
-                    *nearest = (excess[k], Vector3::new(x[k], y[k], z[k]) - center);
+                    *nearest = (excess[k], Vector3::new(x[k] - cx, y[k] - cy, z[k] - cz));
                 }
                 nearer &= nearer - 1;
             }
             let mut meeting = lanes.simd_lt(f32x8::splat(0.0)).to_bitmask();
             while meeting != 0 {
-                f(self.numbers[8 * at + meeting.trailing_zeros() as usize]);
+                list.push((i, self.numbers[8 * at + meeting.trailing_zeros() as usize]));
                 meeting &= meeting - 1;
             }
         }
