@@ -245,7 +245,9 @@ impl Batch {
             block.place(&laws[block.law], rule.inside);
         }
         for meeting in &self.meetings {
-            meeting.tune_dashpots(blocks, laws, rule, &sides);
+            if rule.damping == DampingMass::Contact || meeting.count >= CROWD {
+                meeting.tune_dashpots(blocks, laws, rule, &sides);
+            }
         }
         for block in blocks.iter_mut() {
             block.press(&laws[block.law], rule.dt);

@@ -21,6 +21,8 @@ pub(super) type Eight = [[f32; 8]; 4];
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outline {
     pub balls: Vec<Ball>,
+    /// How many spheres the outlines before this one have.
+    pub first: u32,
     /// Largest distance of a sphere's far side from the centre of mass, m.
     pub bounding_radius: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
@@ -30,7 +32,7 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    pub(super) fn new(clump: &Clump) -> Self {
+    pub(super) fn new(clump: &Clump, first: u32) -> Self {
         let ball =
             |s: &crate::shapes::Sphere| Ball { center: s.center, radius: s.radius, curvature: 1.0 / s.radius };
         let balls: Vec<Ball> = clump.spheres.iter().map(ball).collect();
@@ -46,6 +48,7 @@ impl Outline {
             reach: clump.reach(),
             eights: eights.collect(),
             balls,
+            first,
         }
     }
 }

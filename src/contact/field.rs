@@ -1,6 +1,6 @@
 //! All contacts of a run.
 
-use super::body::{BodyConstants, Outline};
+use super::body::{Ball, BodyConstants, Outline};
 use super::frames::Frame;
 use super::groups::{self, Group};
 use super::law::PairLaw;
@@ -64,6 +64,8 @@ pub struct Tally {
 #[derive(Clone)]
 pub struct ContactField {
     outlines: Vec<Outline>,
+    /// The spheres of all outlines.
+    balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
     frames: Vec<Frame>,
     pub(super) laws: Vec<PairLaw>,
@@ -87,7 +89,13 @@ pub struct ContactField {
 impl ContactField {
     /// A field without bodies and surfaces.
     pub fn new(scene: &Scene, shapes: &[TabletShape]) -> Self {
-        let outlines: Vec<Outline> = shapes.iter().map(|s| Outline::new(&s.clump)).collect();
+        let mut balls = Vec::new();
+        let outlines = shapes.iter().map(|shape| {
+            let outline = Outline::new(&shape.clump, balls.len() as u32);
+            balls.extend_from_slice(&outline.balls);
+            outline
+        });
+        let outlines: Vec<_> = outlines.collect();
         let largest = outlines.iter().map(|o| o.bounding_radius).fold(0.0, f64::max);
         let n = scene.materials.len();
         let laws = (0..n * n).map(|k| {
@@ -96,6 +104,7 @@ impl ContactField {
         });
         Self {
             outlines,
+            balls,
             bodies: Vec::new(),
             frames: Vec::new(),
             laws: laws.collect(),
@@ -160,9 +169,10 @@ impl ContactField {
             boundary.motion = *motion;
         }
         self.frames.clear();
-        self.frames.extend(motions.iter().zip(&self.bodies).map(|(motion, body)| Frame::new(motion, body)));
+        self.frames.extend(motions.iter().map(Frame::new));
         let setting = Setting {
             outlines: &self.outlines,
+            balls: &self.balls,
             bodies: &self.bodies,
             motions,
             frames: &self.frames,

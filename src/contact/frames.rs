@@ -1,6 +1,5 @@
 //! Poses laid out for vector instructions: four numbers where three would do.
 
-use super::body::BodyConstants;
 use crate::world::Motion;
 use nalgebra::Vector3;
 
@@ -15,16 +14,14 @@ pub(super) struct Frame {
     axes: [Four; 3],
     /// Centre of mass, m.
     position: Four,
-    /// Index of the body's outline.
-    pub shape: usize,
 }
 
 impl Frame {
     #[inline]
-    pub(super) fn new(motion: &Motion, body: &BodyConstants) -> Self {
+    pub(super) fn new(motion: &Motion) -> Self {
         let four = |v: &[f64]| [v[0], v[1], v[2], 0.0];
         let [x, y, z] = [0, 1, 2].map(|k| four(&motion.rotation.as_slice()[3 * k..3 * k + 3]));
-        Self { axes: [x, y, z], position: four(motion.position.as_slice()), shape: body.shape }
+        Self { axes: [x, y, z], position: four(motion.position.as_slice()) }
     }
 
     /// A vector of the body in world axes.

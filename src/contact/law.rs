@@ -52,9 +52,12 @@ impl Spring {
     #[inline(always)]
     pub(super) fn keep_if(&mut self, touches: bool) {
         let mask = u64::from(touches).wrapping_neg();
-        for x in self.stretch.iter_mut().chain([&mut self.radius]) {
-            *x = f64::from_bits(x.to_bits() & mask);
-        }
+        let kept = |x: f64| f64::from_bits(x.to_bits() & mask);
+        let Self { stretch, radius } = *self;
+        *self = Self {
+            stretch: Vector3::new(kept(stretch.x), kept(stretch.y), kept(stretch.z)),
+            radius: kept(radius),
+        };
     }
 }
 

@@ -1,6 +1,7 @@
 //! The sphere pairs of near bodies that may touch, with their springs, in one sequence: read through once a step.
 
 use super::batch::Place;
+use super::body::Ball;
 use super::frames::{Four, add_less};
 use super::law::Spring;
 use super::pairs::Setting;
@@ -14,6 +15,8 @@ pub(super) struct Link {
     pub b: u32,
     pub i: u16,
     pub j: u16,
+    /// Where the spheres stand in [`Setting::balls`].
+    balls: (u32, u32),
     /// At rest while they do not touch.
     pub spring: Spring,
 }
@@ -23,6 +26,11 @@ impl Link {
     #[inline]
     pub(super) fn bodies(&self) -> (u32, u32) {
         (self.a, self.b)
+    }
+
+    #[inline(always)]
+    fn balls<'a>(&self, setting: &Setting<'a>) -> (&'a Ball, &'a Ball) {
+        (&setting.balls[self.balls.0 as usize], &setting.balls[self.balls.1 as usize])
     }
 
     /// Whether the spheres touched in the last step.
@@ -58,7 +66,9 @@ struct Touching {
 impl Links {
     /// Puts new links of two bodies in the place of their old ones: spheres in order, bodies in order from call to call.
     /// [`Links::replaced`] must follow.
-    pub(super) fn replace(&mut self, (a, b): (u32, u32), spheres: &[(u16, u16)]) {
+    ///
+    /// `first` are the places of the bodies' first spheres in [`Setting::balls`].
+    pub(super) fn replace(&mut self, (a, b): (u32, u32), first: (u32, u32), spheres: &[(u16, u16)]) {
         let left = &self.all[self.passed..];
         let (before, left) = left.split_at(left.partition_point(|link| link.bodies() < (a, b)));
         let old = &left[..left.iter().take_while(|link| link.bodies() == (a, b)).count()];
@@ -68,7 +78,8 @@ impl Links {
         self.next.extend(spheres.iter().map(|&(i, j)| {
             while old.next_if(|link| (link.i, link.j) < (i, j)).is_some() {}
             let known = old.next_if(|link| (link.i, link.j) == (i, j));
-            Link { a, b, i, j, spring: known.map_or_else(Spring::default, |link| link.spring) }
+            let balls = (first.0 + u32::from(i), first.1 + u32::from(j));
+            Link { a, b, i, j, balls, spring: known.map_or_else(Spring::default, |link| link.spring) }
         }));
     }
 
@@ -89,8 +100,7 @@ impl Links {
         let mut found = 0;
         for (k, link) in self.all.iter_mut().enumerate() {
             let (a, b) = (&setting.frames[link.a as usize], &setting.frames[link.b as usize]);
-            let ball_a = &setting.outlines[a.shape].balls[link.i as usize];
-            let ball_b = &setting.outlines[b.shape].balls[link.j as usize];
+            let (ball_a, ball_b) = link.balls(setting);
             let arm = a.turn(&ball_a.center);
             let between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
             let [x, y, z, _] = between;
@@ -123,7 +133,7 @@ impl Links {
     pub(super) fn place(&self, k: usize, setting: &Setting<'_>) -> Place {
         let Touching { link, arm: [ax, ay, az, _], between: [x, y, z, _] } = self.touching[k];
         let link = &self.all[link];
-        let (ball_a, ball_b) = setting.balls(link);
+        let (ball_a, ball_b) = link.balls(setting);
         let between = Vector3::new(x, y, z);
         Place {
             arm: Vector3::new(ax, ay, az),

@@ -13,7 +13,7 @@ use super::body::{Ball, BodyConstants, Eight, Outline};
 use super::extents::Extents;
 use super::frames::Frame;
 use super::lease::Lease;
-use super::links::{Link, Links};
+use super::links::Links;
 use super::side::Side;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
@@ -35,6 +35,8 @@ pub(super) struct Pair {
 /// What a pair reads while it works.
 pub(super) struct Setting<'a> {
     pub outlines: &'a [Outline],
+    /// The spheres of all outlines.
+    pub balls: &'a [Ball],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
     pub frames: &'a [Frame],
@@ -50,13 +52,6 @@ pub(super) struct Setting<'a> {
 impl Setting<'_> {
     fn outline(&self, body: usize) -> &Outline {
         &self.outlines[self.bodies[body].shape]
-    }
-
-    /// The spheres of a link.
-    #[inline(always)]
-    pub(super) fn balls(&self, link: &Link) -> (&Ball, &Ball) {
-        let (a, b) = (self.outline(link.a as usize), self.outline(link.b as usize));
-        (&a.balls[link.i as usize], &b.balls[link.j as usize])
     }
 
     /// Index of the law of two bodies.
@@ -130,7 +125,7 @@ impl Pair {
         if anew {
             let skin = skin(setting, ma, mb, oa.reach + ob.reach);
             self.list([oa, ob], at, skin, scratch);
-            links.replace(self.key(), &scratch.spheres);
+            links.replace(self.key(), (oa.first, ob.first), &scratch.spheres);
             left = self.listed.allowance;
         }
         self.mark = setting.odometers[a] + setting.odometers[b] + left;
