@@ -250,4 +250,4 @@ fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, reach: f64) -> f64 {
 const SKIN: (f64, f64) = (0.3, 5.0);
 /// A wide skin makes lists long, a narrow one makes them anew often: at skin s and relative speed v the one costs as
 /// s, the other as v dt/s, and both together least at s² = v dt L. This is L, in common skins.
-const LENGTH: f64 = 30.0;
+const LENGTH: f64 = 15.0;

@@ -70,7 +70,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
         findings.clear();
         std::mem::swap(&mut links.all, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
-        find(&mut alert, wakes.iter().map(|wake| setting.pace > *wake));
+        find(&mut alert, wakes, setting.pace);
         for &k in &alert {
             let k = k as usize;
             let mut left = pairs[k].left(setting.odometers);
@@ -111,14 +111,14 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     }
 }
 
-/// Fills `found` with the numbers of those that are `true`, without a branch for each.
+/// Fills `found` with the numbers of the `wakes` before `pace`, without a branch for each: none could be foreseen.
 #[inline(always)]
-fn find(found: &mut Vec<u32>, each: impl ExactSizeIterator<Item = bool>) {
-    found.resize(each.len(), 0);
+fn find(found: &mut Vec<u32>, wakes: &[f64], pace: f64) {
+    found.resize(wakes.len(), 0);
     let mut count = 0;
-    for (k, yes) in each.enumerate() {
+    for (k, wake) in wakes.iter().enumerate() {
         found[count] = k as u32;
-        count += usize::from(yes);
+        count += usize::from(*wake < pace);
     }
     found.truncate(count);
 }

@@ -26,6 +26,7 @@ pub(super) struct Drift<'a> {
 }
 
 /// Eight bodies; places left over hold the first one again.
+#[derive(Default)]
 struct Eight {
     mass: Lanes,
     inertia: Lanes3,
@@ -46,8 +47,6 @@ struct Eight {
     next_spin: Lanes3,
     path: [Lanes; 2],
 }
-
-const ZERO3: Lanes3 = [[0.0; LANES]; 3];
 
 #[inline(always)]
 fn get(lanes: &Lanes3, k: usize) -> Vector3<f64> {
@@ -76,8 +75,9 @@ impl pulp::NullaryFnOnce for Drift<'_> {
     fn call(self) {
         let Self { bodies, motions, paths, carrier, dt } = self;
         let eights = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES)).zip(paths.chunks_mut(LANES));
+        let mut eight = Eight::default();
         for ((bodies, motions), paths) in eights {
-            let mut eight = Eight::of(bodies, motions);
+            eight.read(bodies, motions);
             eight.kick(0.5 * dt);
             eight.find_turn(&carrier, dt);
             eight.mend_large_turns();
@@ -92,37 +92,20 @@ impl pulp::NullaryFnOnce for Drift<'_> {
 
 impl Eight {
     #[inline(always)]
-    fn of(bodies: &[Body], motions: &[Motion]) -> Self {
-        let mut eight = Self {
-            mass: [0.0; LANES],
-            inertia: ZERO3,
-            orientation: [[0.0; LANES]; 4],
-            position: ZERO3,
-            velocity: ZERO3,
-            momentum: ZERO3,
-            force: ZERO3,
-            torque: ZERO3,
-            axes: [ZERO3; 3],
-            turn: ZERO3,
-            turned: [[0.0; LANES]; 4],
-            next_velocity: ZERO3,
-            next_spin: ZERO3,
-            path: [[0.0; LANES]; 2],
-        };
+    fn read(&mut self, bodies: &[Body], motions: &[Motion]) {
         for k in 0..LANES {
             let from = if k < bodies.len() { k } else { 0 };
             let (body, motion) = (&bodies[from], &motions[from]);
-            eight.mass[k] = body.mass;
-            set(&mut eight.inertia, k, &body.inertia);
+            self.mass[k] = body.mass;
+            set(&mut self.inertia, k, &body.inertia);
             let q = body.orientation.coords;
-            set_four(&mut eight.orientation, k, (q.x, q.y, q.z, q.w));
-            set(&mut eight.position, k, &motion.position);
-            set(&mut eight.velocity, k, &body.velocity);
-            set(&mut eight.momentum, k, &body.momentum);
-            set(&mut eight.force, k, &body.force);
-            set(&mut eight.torque, k, &body.torque);
+            set_four(&mut self.orientation, k, (q.x, q.y, q.z, q.w));
+            set(&mut self.position, k, &motion.position);
+            set(&mut self.velocity, k, &body.velocity);
+            set(&mut self.momentum, k, &body.momentum);
+            set(&mut self.force, k, &body.force);
+            set(&mut self.torque, k, &body.torque);
         }
-        eight
     }
 
     #[inline(always)]
