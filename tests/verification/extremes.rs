@@ -85,25 +85,35 @@ fn restitution_from_nearly_none_to_one() {
     refused("restitution", &["--set", "pairs[0].restitution=NaN"], &["pairs[0].restitution"]);
 }
 
+/// At most 12 and 5 steps asked for in 731.66 us of contact, as a time and as a number.
 #[test]
 fn few_steps_are_warned_of_and_too_few_refused() {
-    // 731.66 us of contact: 12 and 5 steps.
-    let step = |us: f64| [format!("time.step=Fixed(Us({us}))"), format!("time.frame_interval=Us({us})")];
-    let run = |us: f64, more: &[&str]| {
-        let set = step(us);
-        of_run("hertz_impact", &[&["--set", &set[0], "--set", &set[1]], more].concat())
-    };
-    let (code, message, _) = run(60.0, &[]);
-    assert_eq!(code, 0, "{message}");
-    let (code, message, _) = run(146.0, &[]);
-    assert!(
-        code == 2 && message.contains("steps in a contact") && message.contains("lower time.step"),
-        "{message}"
+    for [few, too_few] in [["Fixed(Us(60))", "Fixed(Us(146))"], ["PerContact(12)", "PerContact(5)"]] {
+        let run = |step: &str, more: &[&str]| {
+            let step = format!("time.step={step}");
+            let set = ["--set", &step, "--set", "time.frame_interval=Us(146)"];
+            of_run("hertz_impact", &[&set, more].concat())
+        };
+        let warned = |(code, message, out): (i32, String, tempfile::TempDir), steps: &str| {
+            assert_eq!(code, 0, "{message}");
+            let record = std::fs::read_to_string(out.path().join("run/run.json")).expect("has a record");
+            assert!(record.contains(&format!("only {steps} steps in a contact")), "{record}");
+        };
+        // A whole number of steps in a frame: three.
+        warned(run(few, &[]), "15.0");
+        let (code, message, _) = run(too_few, &[]);
+        assert_eq!(code, 2, "{message}");
+        assert!(
+            message.contains("5.0 steps in a contact, at least 8 are needed: lower time.step"),
+            "{message}"
+        );
+        warned(run(too_few, &["--force"]), "5.0");
+    }
+    refused(
+        "hertz_impact",
+        &["--set", "time.step=PerContact(0.5)", "--force"],
+        &["time.step", "out of range"],
     );
-    let (code, message, out) = run(146.0, &["--force"]);
-    assert_eq!(code, 0, "{message}");
-    let record = std::fs::read_to_string(out.path().join("run/run.json")).expect("has a record");
-    assert!(record.contains("steps in a contact"), "{record}");
 }
 
 #[test]
