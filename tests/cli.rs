@@ -370,24 +370,43 @@ fn every_backend_ends_well_and_is_recorded() {
     pancoat(&["run", &scene, "--backend", "abacus", "--out", &out]).code(2);
 }
 
+/// While it sprays and, without a row of results yet, while it settles.
 #[cfg(unix)]
 #[test]
-fn a_signal_stops_with_75() {
-    let (_folder, scene, out) = small();
-    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("pancoat"))
-        .args(["run", &scene, "--seconds", "1000", "--out", &out, "--quiet"])
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("starts");
-    let begun = Instant::now();
-    while !Path::new(&out).join("series.csv").exists() && begun.elapsed() < Duration::from_mins(1) {
-        std::thread::sleep(Duration::from_millis(20));
+fn signals_stop_with_75_and_keep_what_there_is() {
+    for (signal, settle, sign) in [
+        ("-TERM", "time.settle=For(Ms(100))", "series.csv"),
+        ("-INT", "time.settle=For(Ms(100))", "series.csv"),
+        ("-TERM", "time.settle=For(S(1000))", "run.json"),
+    ] {
+        let (_folder, scene, out) = small();
+        let out = Path::new(&out);
+        let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("pancoat"))
+            .args(["run", &scene, "--seconds", "1000", "--set", settle, "--quiet", "--out"])
+            .arg(out)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("starts");
+        let begun = Instant::now();
+        while !out.join(sign).exists() && begun.elapsed() < Duration::from_mins(1) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let kill = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(kill.is_ok_and(|status| status.success()));
+        let ended = child.wait_with_output().expect("ends");
+        assert_eq!(ended.status.code(), Some(75), "{signal} {settle}");
+        let message = String::from_utf8_lossy(&ended.stderr);
+        assert!(message.contains("stopped on request; what was simulated is in"), "{message}");
+        let record = record(out);
+        assert_eq!(record["status"], "stopped");
+        assert!(record["state_hash"].is_string());
+        let bodies =
+            csv::Reader::from_path(out.join("bodies.csv")).expect("is a table").into_records().count();
+        assert!(bodies == 12 || sign == "run.json" && bodies < 12, "{bodies}");
+        let coated = record["performance"]["coated_s"].as_f64().expect("is known");
+        assert_eq!(coated > 0.0, sign == "series.csv", "{coated}");
     }
-    let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
-    assert!(kill.is_ok_and(|status| status.success()));
-    assert_eq!(child.wait().expect("ends").code(), Some(75));
-    assert_eq!(record(Path::new(&out))["status"], "stopped");
 }
 
 #[test]
