@@ -10,6 +10,7 @@ mod elastic_gas;
 mod energy;
 mod expected;
 mod extremes;
+mod glued_sphere;
 mod hertz;
 mod impulse;
 mod incline;
