@@ -25,7 +25,7 @@ use std::io::Read;
 use std::path::Path;
 use weld::Welded;
 
-/// Facets that are read at most. A wall of so many takes seconds and half a GB; no surface of a tablet or drum needs them.
+/// Facets that are read at most. A wall of so many takes seconds, a tablet a minute; no surface of either needs them.
 const MOST_FACETS: usize = 1_000_000;
 
 /// Longest file, bytes: above it there are more facets than that in any format.
