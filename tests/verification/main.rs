@@ -19,6 +19,7 @@ mod many_contacts;
 mod mass_properties;
 mod mesh_surfaces;
 mod momentum;
+mod neck;
 mod objectivity;
 mod oblique;
 mod peers;
