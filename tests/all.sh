@@ -23,6 +23,16 @@ cargo fmt --check
 cargo clippy --release --all-targets -- -D warnings
 RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --document-private-items
 cargo test --release
+
+# The same bits with and without optimisation.
+bits=$(mktemp -d)
+for profile in dev release; do
+    cargo run --profile $profile -- run scenes/verification/small_bed.ron --quiet --out "$bits/$profile"
+    grep state_hash "$bits/$profile/run.json" > "$bits/$profile.txt"
+done
+diff "$bits/dev.txt" "$bits/release.txt"
+rm -r "$bits"
+
 cargo clippy --release --features gpu --lib --test coating -- -D warnings
 cargo test --release --features gpu --lib observers::coater
 cargo test --release --features gpu --test coating

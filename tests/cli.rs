@@ -122,6 +122,28 @@ fn the_same_scene_gives_the_same_bits_on_any_number_of_threads() {
     assert_eq!(hashes[0], hashes[1]);
 }
 
+/// One tablet has no spread over tablets, and nothing is divided by none; without any there is no scene.
+#[test]
+fn a_single_tablet_is_coated() {
+    let (folder, scene, out) = small();
+    pancoat(&["run", &scene, "--quiet", "--set", "batches[0].count=1", "--out", &out]).success();
+    let results = &record(Path::new(&out))["results"];
+    assert!(results["cov_intra"].as_f64().is_some_and(|cov| cov > 0.0), "{results}");
+    assert_eq!(results["cov_inter"], 0.0);
+    assert!(results.as_object().expect("is a table").values().all(|value| !value.is_null()), "{results}");
+    let series = fs::read_to_string(Path::new(&out).join("series.csv")).expect("is there");
+    assert!(!series.contains("NaN") && !series.contains("inf,"), "{series}");
+    for command in ["predict", "compare", "report"] {
+        Command::cargo_bin("pancoat")
+            .expect("is built")
+            .args([command, &out])
+            .current_dir(&folder)
+            .assert()
+            .success();
+    }
+    pancoat(&["run", &scene, "--set", "batches[0].count=0"]).code(2);
+}
+
 #[test]
 fn a_folder_of_another_scene_is_left_alone() {
     let (_folder, scene, out) = small();
@@ -153,6 +175,13 @@ fn faults_of_the_input_exit_with_2() {
         &["run", &scene, "--out", &out, "--set", "time.step=Fixed(Ms(20))"],
         "refused: the time step leaves",
     );
+    if cfg!(target_os = "linux") {
+        let many =
+            ["--set", "batches[0].count=10000000", "--set", "shapes.ball.recipe=Sphere(diameter: Mm(0.2))"];
+        let arguments =
+            [&["run", &scene, "--out", &out, "--set", "shapes.ball.panels=400"], &many[..]].concat();
+        wrong(&arguments, "refused: the run needs about ");
+    }
     wrong(&["drum", &scene, "--set", "drum=None", "--set", "batches=[]"], "nothing that moves");
     wrong(&["report", &folder.path().display().to_string()], "cannot read");
     assert!(!Path::new(&out).exists(), "a refused run leaves no folder");
@@ -166,6 +195,8 @@ fn check_says_what_is_on_and_what_is_left_out() {
         "drum                250 mm across, 100 mm wide, 22.0 rpm, 4 baffles",
         "spray               76.2 x 38.1 mm, 512 x 256 pixels, square to the bed",
         "steps per contact   40.",
+        "steps               at most",
+        "run time            ",
         "Rayleigh fraction",
         "static overlap",
         "memory              about",
@@ -370,24 +401,43 @@ fn every_backend_ends_well_and_is_recorded() {
     pancoat(&["run", &scene, "--backend", "abacus", "--out", &out]).code(2);
 }
 
+/// While it sprays and, without a row of results yet, while it settles.
 #[cfg(unix)]
 #[test]
-fn a_signal_stops_with_75() {
-    let (_folder, scene, out) = small();
-    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("pancoat"))
-        .args(["run", &scene, "--seconds", "1000", "--out", &out, "--quiet"])
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("starts");
-    let begun = Instant::now();
-    while !Path::new(&out).join("series.csv").exists() && begun.elapsed() < Duration::from_mins(1) {
-        std::thread::sleep(Duration::from_millis(20));
+fn signals_stop_with_75_and_keep_what_there_is() {
+    for (signal, settle, sign) in [
+        ("-TERM", "time.settle=For(Ms(100))", "series.csv"),
+        ("-INT", "time.settle=For(Ms(100))", "series.csv"),
+        ("-TERM", "time.settle=For(S(1000))", "run.json"),
+    ] {
+        let (_folder, scene, out) = small();
+        let out = Path::new(&out);
+        let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("pancoat"))
+            .args(["run", &scene, "--seconds", "1000", "--set", settle, "--quiet", "--out"])
+            .arg(out)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("starts");
+        let begun = Instant::now();
+        while !out.join(sign).exists() && begun.elapsed() < Duration::from_mins(1) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let kill = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(kill.is_ok_and(|status| status.success()));
+        let ended = child.wait_with_output().expect("ends");
+        assert_eq!(ended.status.code(), Some(75), "{signal} {settle}");
+        let message = String::from_utf8_lossy(&ended.stderr);
+        assert!(message.contains("stopped on request; what was simulated is in"), "{message}");
+        let record = record(out);
+        assert_eq!(record["status"], "stopped");
+        assert!(record["state_hash"].is_string());
+        let bodies =
+            csv::Reader::from_path(out.join("bodies.csv")).expect("is a table").into_records().count();
+        assert!(bodies == 12 || sign == "run.json" && bodies < 12, "{bodies}");
+        let coated = record["performance"]["coated_s"].as_f64().expect("is known");
+        assert_eq!(coated > 0.0, sign == "series.csv", "{coated}");
     }
-    let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
-    assert!(kill.is_ok_and(|status| status.success()));
-    assert_eq!(child.wait().expect("ends").code(), Some(75));
-    assert_eq!(record(Path::new(&out))["status"], "stopped");
 }
 
 #[test]

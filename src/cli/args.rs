@@ -57,7 +57,7 @@ pub(super) struct RunArgs {
     /// Stop after this wall time (90s, 30m, 2h) and keep what there is
     #[arg(long, value_name = "TIME", value_parser = wall_time)]
     pub(super) max_wall: Option<Duration>,
-    /// Run what would be refused for its time step or its length
+    /// Run what would be refused for its time step, its length or its memory
     #[arg(long)]
     pub(super) force: bool,
     /// No progress on stderr

@@ -4,7 +4,7 @@ use super::args::CheckArgs;
 use super::depth::{PACKING, bed_depth, column_mass, static_overlap};
 use super::failure::Failure;
 use super::watch::clock;
-use super::{guards, pace, print_line};
+use super::{guards, memory, pace, print_line};
 use crate::contact::PairLaw;
 use crate::scene::{Aim, Record, Scene, Settle, Wall};
 use crate::shapes::TabletShape;
@@ -128,7 +128,7 @@ fn numbers(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> Vec<Line> 
         "run time",
         format!("{pace:.2} s of work a simulated second, {} for the spray on one core", clock(coated)),
     ));
-    lines.push(("memory", format!("about {:.0} MB", memory(scene, shapes) / 1e6)));
+    lines.push(("memory", format!("about {:.0} MB", memory::needed(scene, shapes) / 1e6)));
     lines
 }
 
@@ -149,27 +149,3 @@ fn expected_static_overlap(scene: &Scene, shapes: &[TabletShape]) -> Option<f64>
     };
     scene.batches.iter().map(overlap).reduce(f64::max)
 }
-
-/// Bytes a run needs beside the program itself.
-fn memory(scene: &Scene, shapes: &[TabletShape]) -> f64 {
-    let bodies = scene.batches.iter().map(|b| (b.shape, b.count));
-    let bodies = bodies.chain(scene.bodies.iter().map(|b| (b.shape, 1)));
-    let per_body: f64 = bodies
-        .map(|(shape, count)| {
-            let panels = shapes[shape].panels.as_ref().map_or(0, crate::shapes::Panels::len);
-            let spheres = shapes[shape].clump.spheres.len();
-            count as f64 * (BODY + SPHERE * spheres as f64 + PANEL * panels as f64)
-        })
-        .sum();
-    let pixels = scene.spray.as_ref().map_or(0.0, |s| s.pixels.map(f64::from).iter().product());
-    per_body + PIXEL * pixels
-}
-
-/// Bytes of a body: state, engine, near pairs.
-const BODY: f64 = 20e3;
-/// Bytes of a sphere of a body: its place in the engine's compound and in contact lists.
-const SPHERE: f64 = 400.0;
-/// Bytes of a panel of a body: counts, blocks of time, statistics.
-const PANEL: f64 = 80.0;
-/// Bytes of a pixel: number and depth.
-const PIXEL: f64 = 8.0;

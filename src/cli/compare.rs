@@ -8,6 +8,7 @@ use crate::models::{Spearman, TabletSurface};
 use crate::report::{
     ComparedShape, MEASURES, ReportData, ThicknessMap, ThzSide, comparison_page, results_table, thz_page,
 };
+use crate::scene::ShortLines;
 use std::fs;
 use std::path::Path;
 
@@ -96,6 +97,6 @@ fn scans(args: &CompareArgs) -> Result<String, Failure> {
 
 fn scan(path: &Path, cut: f64, surface: &TabletSurface<'_>) -> Result<ThzMap, Failure> {
     let fault = |source| Failure::Scan { path: path.to_owned(), source };
-    let file = fs::File::open(path).map_err(|e| fault(csv::Error::from(e).into()))?;
+    let file = ShortLines::open(path).map_err(|e| fault(csv::Error::from(e).into()))?;
     Ok(ThzMap::new(&ThzScan::read(file, cut).map_err(fault)?, surface))
 }

@@ -1,6 +1,6 @@
 //! What is refused before a run, and what is warned of before and after it.
 
-use super::pace;
+use super::{memory, pace};
 use crate::scene::{ContactMode, Scene, Settle};
 use crate::shapes::TabletShape;
 use crate::stepping::TimeStep;
@@ -21,7 +21,7 @@ const FARTHEST_TRAVEL: f64 = 0.1;
 /// Overlap over radius above which a contact is no longer small, as Hertz theory takes it.
 const LARGE_OVERLAP: f64 = 0.05;
 
-/// A time step that cannot give results.
+/// A scene that cannot give results.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(super) enum Refusal {
     #[error(
@@ -42,6 +42,10 @@ pub(super) enum Refusal {
          shear_modulus"
     )]
     Steps { steps: f64, hours: f64 },
+    #[error(
+        "the run needs about {needed_gb:.0} GB of memory, {free_gb:.0} GB are free: give it fewer tablets or panels"
+    )]
+    Memory { needed_gb: f64, free_gb: f64 },
 }
 
 /// Something that limits confidence in a result, with advice.
@@ -62,8 +66,12 @@ pub(super) enum Warning {
     LargeOverlap(f64),
 }
 
-/// Refuses a step that cannot be stable. Impulses have no contacts to resolve.
+/// Refuses what memory cannot hold, and a step that cannot be stable. Impulses have no contacts to resolve.
 pub(super) fn refuse(scene: &Scene, shapes: &[TabletShape], step: &TimeStep) -> Result<(), Refusal> {
+    let needed = memory::needed(scene, shapes);
+    if let Some(free) = memory::free().filter(|free| needed > *free) {
+        return Err(Refusal::Memory { needed_gb: needed / 1e9, free_gb: free / 1e9 });
+    }
     if scene.contact.mode != ContactMode::HertzMindlin {
         return Ok(());
     }

@@ -13,6 +13,7 @@ mod compare;
 mod depth;
 mod failure;
 mod guards;
+mod memory;
 mod new;
 mod outcome;
 mod pace;

@@ -160,7 +160,7 @@ fn kind(error: Error, written: &str) -> FaultKind {
 }
 
 /// The first line of a value, cut to a readable length.
-pub(super) fn shown(written: &str) -> String {
+pub(crate) fn shown(written: &str) -> String {
     let line = written.lines().next().unwrap_or("");
     let mut shown: String = line.chars().take(40).collect();
     if shown.len() < written.len() {

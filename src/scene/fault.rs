@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, and how it is told.
 
 use super::outline::Syntax;
+use super::pose_table::PoseTableFault;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -229,15 +230,8 @@ pub enum FaultKind {
     #[error("a Sphere is one sphere and a Clump as it is given: leave `spheres` out")]
     NotFitted,
     /// A pose table that cannot be used.
-    #[error("{}:{line}: {what}", path.display())]
-    Poses {
-        /// The table.
-        path: PathBuf,
-        /// Line, from 1; 0 for the file as a whole.
-        line: u64,
-        /// What is wrong.
-        what: String,
-    },
+    #[error(transparent)]
+    Poses(#[from] PoseTableFault),
     /// A recipe without a surface in a sprayed scene.
     #[error("a Clump has no surface to coat; give a solid's dimensions or leave out the spray")]
     NoSurface,

@@ -14,10 +14,14 @@ mod outline;
 mod overrides;
 mod path;
 mod pattern;
+mod pose_table;
 mod recipe;
+mod short_lines;
 mod source;
 mod spec;
 mod text;
+
+pub(crate) use decode::shown;
 
 pub use clump::{Placement, SphereBudget};
 pub use drum::{Baffles, Drum, Wall};
@@ -25,5 +29,7 @@ pub use fault::{Fault, FaultKind, Place, SceneFaults};
 pub use model::*;
 pub use outline::Syntax;
 pub use pattern::*;
+pub use pose_table::{PoseRow, PoseStamp, PoseTable, PoseTableFault};
 pub use recipe::{Cap, Outline, Recipe};
+pub use short_lines::ShortLines;
 pub use text::SceneText;

@@ -1,6 +1,7 @@
 //! Clumps given sphere by sphere in a text file.
 
 use super::{Clump, ShapeError, Sphere};
+use crate::scene::{ShortLines, shown};
 use nalgebra::Vector3;
 use std::path::Path;
 
@@ -10,8 +11,8 @@ use std::path::Path;
 /// [`ShapeError::Read`] when the file cannot be read, [`ShapeError::Content`] with the line when a row is not four
 /// finite numbers with a positive radius, or when there is no row.
 pub(super) fn read_clump(path: &Path) -> Result<Clump, ShapeError> {
-    let text =
-        std::fs::read_to_string(path).map_err(|source| ShapeError::Read { path: path.to_owned(), source })?;
+    let text = ShortLines::open(path).and_then(std::io::read_to_string);
+    let text = text.map_err(|source| ShapeError::read(path, source))?;
     let fault = |line: usize, fault: String| ShapeError::Content { path: path.to_owned(), line, fault };
     let mut spheres = Vec::new();
     for (number, row) in text.lines().enumerate() {
@@ -20,7 +21,9 @@ pub(super) fn read_clump(path: &Path) -> Result<Clump, ShapeError> {
         }
         let numbers: Vec<f64> = row
             .split_whitespace()
-            .map(|word| word.parse().map_err(|_| fault(number + 1, format!("`{word}` is not a number"))))
+            .map(|word| {
+                word.parse().map_err(|_| fault(number + 1, format!("`{}` is not a number", shown(word))))
+            })
             .collect::<Result<_, _>>()?;
         let &[x, y, z, radius] = &numbers[..] else {
             let found = numbers.len();

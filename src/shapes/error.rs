@@ -105,6 +105,12 @@ pub enum MeshFault {
         /// How many may be.
         most: usize,
     },
+    /// The file is longer than any mesh that can be handled.
+    #[error("the file is longer than {} MB; export a coarser mesh", most / 1_000_000)]
+    TooLong {
+        /// Bytes that may be.
+        most: u64,
+    },
     /// A coordinate is NaN or infinite.
     #[error("facet {facet} has a coordinate that is not a finite number")]
     NotFinite {

@@ -1,6 +1,8 @@
 //! V45, V46: the same scene gives the same bits: for any number of threads and again, and going on from a saved state, springs
-//! included. The fingerprint takes positions, orientations, velocities, momenta and springs bit by bit.
+//! included. The fingerprint takes positions, orientations, velocities, momenta and springs bit by bit. `tests/all.sh` holds builds with
+//! and without optimisation together.
 
+use super::peers::peers_scene::peers_scene;
 use super::support::{scene, set};
 use pancoat::stepping::Simulation;
 
@@ -20,6 +22,25 @@ fn threads_do_not_change_a_bit() {
     let one = settled(1).state_hash();
     for threads in [2, 3, 4, 8, 16, 1] {
         assert_eq!(one, settled(threads).state_hash(), "{threads} threads");
+    }
+}
+
+/// 770 tablets of 20 spheres for 0.2 s, 4000 steps: all lists are made and remade many times.
+#[test]
+fn threads_do_not_change_a_bit_of_a_full_bed() {
+    let scene = peers_scene("peers20", 0.5, None);
+    let hash = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts");
+        pool.install(|| {
+            let mut simulation = Simulation::new(&scene).expect("is built");
+            simulation.run(0, 10, &mut [], &mut |_| true).expect("runs");
+            assert_eq!((simulation.states().len(), simulation.steps()), (770, 4000));
+            simulation.state_hash()
+        })
+    };
+    let one = hash(1);
+    for threads in [2, 3, 4, 8, 16, 1] {
+        assert_eq!(one, hash(threads), "{threads} threads");
     }
 }
 

@@ -9,7 +9,7 @@
 #[path = "../../examples/common/peers_figures.rs"]
 mod peers_figures;
 #[path = "../../examples/common/peers_scene.rs"]
-mod peers_scene;
+pub(super) mod peers_scene;
 
 use pancoat::stepping::Simulation;
 use peers_figures::{NAMES, Watch, reference};

@@ -44,7 +44,7 @@ pub enum ThzError {
         line: u64,
         /// Column name.
         column: String,
-        /// What stands there.
+        /// What stands there, the beginning.
         text: String,
     },
     /// Too few points are left to place the tablet.
@@ -96,7 +96,7 @@ impl ThzScan {
                     * number.ok_or_else(|| ThzError::Number {
                         line: record.position().map_or(0, csv::Position::line),
                         column: headers[index].into(),
-                        text: text.into(),
+                        text: text.chars().take(40).collect(),
                     })?;
             }
             let [x, y, z, thickness, reflectivity] = values;

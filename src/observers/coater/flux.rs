@@ -1,7 +1,7 @@
 //! How much each pixel of the zone is worth.
 
 use super::CoaterError;
-use crate::scene::{Flux, Footprint, Pattern};
+use crate::scene::{Flux, Footprint, Pattern, ShortLines};
 use std::path::Path;
 
 /// Weight of the pixel that receives the most.
@@ -60,16 +60,17 @@ struct Table {
 impl Table {
     fn read(path: &Path) -> Result<Self, CoaterError> {
         let fault = |line: u64, what: &'static str| CoaterError::Table { path: path.into(), line, what };
+        let unreadable = |source| CoaterError::ReadTable { path: path.into(), source };
+        let file = ShortLines::open(path).map_err(|error| unreadable(error.into()))?;
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .trim(csv::Trim::All)
             .comment(Some(b'#'))
-            .from_path(path)
-            .map_err(|source| CoaterError::ReadTable { path: path.into(), source })?;
+            .from_reader(file);
         let mut values = Vec::new();
         let mut columns = 0;
         for record in reader.records() {
-            let record = record.map_err(|source| CoaterError::ReadTable { path: path.into(), source })?;
+            let record = record.map_err(unreadable)?;
             let line = record.position().map_or(0, csv::Position::line);
             columns = record.len();
             for field in &record {

@@ -16,6 +16,7 @@ pub use reader::PoseReader;
 pub use recorder::Recorder;
 pub use table::read_pose_table;
 
+use crate::scene::PoseTableFault;
 use crate::stepping::{BodyState, Frame};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -102,22 +103,7 @@ pub enum PoseError {
         /// The file.
         path: PathBuf,
     },
-    /// A table cannot be read.
-    #[error("{path}: {source}")]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// What the reader said; it names the line.
-        source: csv::Error,
-    },
-    /// A row of a table is not what it should be.
-    #[error("{path}:{line}: {what}")]
-    Row {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: u64,
-        /// What is wrong.
-        what: &'static str,
-    },
+    /// A table is not one of poses.
+    #[error(transparent)]
+    Table(#[from] PoseTableFault),
 }

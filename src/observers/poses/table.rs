@@ -1,23 +1,12 @@
 //! Poses of another program, as a table: `time_s,id,x,y,z,qw,qx,qy,qz` in SI units, one row per body and time.
 
 use super::{PoseError, StoredFrame};
+use crate::scene::{PoseRow, PoseTable};
 use crate::stepping::BodyState;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use serde::Deserialize;
+use nalgebra::Vector3;
 use std::path::Path;
 
-#[derive(Debug, Clone, Copy, Deserialize)]
-struct Row {
-    time_s: f64,
-    id: u64,
-    x: f64,
-    y: f64,
-    z: f64,
-    qw: f64,
-    qx: f64,
-    qy: f64,
-    qz: f64,
-}
+const COLUMNS: [&str; 9] = ["time_s", "id", "x", "y", "z", "qw", "qx", "qy", "qz"];
 
 /// The frames of a CSV file with the columns `time_s,id,x,y,z,qw,qx,qy,qz`, in any order, others ignored.
 ///
@@ -26,68 +15,49 @@ struct Row {
 /// (rad/s) from time 0 on.
 ///
 /// # Errors
-/// [`PoseError::Table`] and [`PoseError::Row`] name the line.
+/// [`PoseError::Table`] names the line.
 pub fn read_pose_table(path: &Path, drum_speed: f64) -> Result<Vec<StoredFrame>, PoseError> {
-    let table = |source| PoseError::Table { path: path.into(), source };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(table)?;
-    let headers = reader.headers().map_err(table)?.clone();
-    let mut frames = Vec::new();
+    let mut table = PoseTable::open(path, &COLUMNS)?;
+    let mut frames: Vec<StoredFrame> = Vec::new();
     let mut ids: Vec<u64> = Vec::new();
-    let mut rows: Vec<Row> = Vec::new();
-    let mut record = csv::StringRecord::new();
+    let (mut time, mut rows): (f64, Vec<(u64, PoseRow)>) = (f64::NEG_INFINITY, Vec::new());
     loop {
-        let more = reader.read_record(&mut record).map_err(table)?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let fault = |what| PoseError::Row { path: path.into(), line, what };
-        let row = if more { Some(record.deserialize::<Row>(Some(&headers)).map_err(table)?) } else { None };
-        if let Some(last) = rows.last()
-            && row.is_none_or(|row| row.time_s != last.time_s)
-        {
-            if row.is_some_and(|row| row.time_s < last.time_s) {
-                return Err(fault("times must increase"));
-            }
-            rows.sort_by_key(|row| row.id);
-            let found: Vec<u64> = rows.iter().map(|row| row.id).collect();
+        let row = table.next_row()?;
+        let stamped = row.map(|row| table.stamp().map(|stamp| (stamp, row))).transpose()?;
+        if stamped.is_some_and(|(stamp, _)| !stamp.time_s.is_finite() || stamp.time_s < time) {
+            return Err(table.fault("times must increase").into());
+        }
+        if !rows.is_empty() && stamped.is_none_or(|(stamp, _)| stamp.time_s != time) {
+            rows.sort_by_key(|(id, _)| *id);
+            let found: Vec<u64> = rows.iter().map(|(id, _)| *id).collect();
             if found.windows(2).any(|pair| pair[0] == pair[1]) {
-                return Err(fault("the time before has a body twice"));
+                return Err(table.fault("the time before has a body twice").into());
             }
             if frames.is_empty() {
                 ids = found;
             } else if ids != found {
-                return Err(fault("the time before has not the bodies of the first"));
+                return Err(table.fault("the time before has not the bodies of the first").into());
             }
-            frames.push(frame(frames.len() as u64, &rows, drum_speed));
-            rows.clear();
+            let bodies = rows.drain(..).map(|(_, row)| at_rest(&row)).collect();
+            frames.push(StoredFrame {
+                index: frames.len() as u64,
+                time,
+                drum_angle: drum_speed * time,
+                bodies,
+            });
         }
-        let Some(row) = row else { return Ok(frames) };
-        let norm = Quaternion::new(row.qw, row.qx, row.qy, row.qz).norm();
-        if norm.is_nan() || (norm - 1.0).abs() > 1e-3 {
-            return Err(fault("the quaternion is not of length 1"));
-        }
-        if ![row.time_s, row.x, row.y, row.z].iter().all(|value| value.is_finite()) {
-            return Err(fault("expected finite numbers"));
-        }
-        rows.push(row);
+        let Some((stamp, row)) = stamped else { return Ok(frames) };
+        time = stamp.time_s;
+        rows.push((stamp.id, row));
     }
 }
 
-fn frame(index: u64, rows: &[Row], drum_speed: f64) -> StoredFrame {
-    let time = rows[0].time_s;
-    let body = |row: &Row| BodyState {
-        position: Vector3::new(row.x, row.y, row.z),
-        orientation: unit(Quaternion::new(row.qw, row.qx, row.qy, row.qz)),
+fn at_rest(row: &PoseRow) -> BodyState {
+    BodyState {
+        position: row.position(),
+        orientation: row.orientation(),
         velocity: Vector3::zeros(),
         spin: Vector3::zeros(),
-    };
-    StoredFrame { index, time, drum_angle: drum_speed * time, bodies: rows.iter().map(body).collect() }
-}
-
-/// A unit quaternion that keeps the bits of one that is already as good a unit as numbers allow.
-fn unit(q: Quaternion<f64>) -> UnitQuaternion<f64> {
-    if (q.norm_squared() - 1.0).abs() < 1e-14 {
-        UnitQuaternion::new_unchecked(q)
-    } else {
-        UnitQuaternion::new_normalize(q)
     }
 }
 
@@ -130,8 +100,8 @@ mod tests {
         assert!(
             message("1,0,0,0,0,1,0,0,0,a\n2,1,0,0,0,1,0,0,0,a\n").ends_with("not the bodies of the first")
         );
-        assert_eq!(message("1,0,nan,0,0,1,0,0,0,a\n"), "2: expected finite numbers");
-        assert!(message("1,0,x,0,0,1,0,0,0,a\n").contains("line: 2"));
-        assert!(read("a,b\n1,2\n").unwrap_err().to_string().contains("missing field"));
+        assert_eq!(message("1,0,nan,0,0,1,0,0,0,a\n"), "2: a position beyond 100 m, or no number");
+        assert!(message("1,0,x,0,0,1,0,0,0,a\n").starts_with("2: "));
+        assert!(read("a,b\n1,2\n").unwrap_err().to_string().contains("the header has no column `time_s`"));
     }
 }

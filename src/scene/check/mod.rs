@@ -10,7 +10,6 @@ mod fit;
 mod materials;
 mod moving;
 mod pattern;
-mod poses;
 mod recipe;
 mod shapes;
 mod size;

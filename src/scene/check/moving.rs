@@ -3,23 +3,18 @@
 use super::super::fault::FaultKind;
 use super::super::model::{Batch, FreeBody};
 use super::super::path::KeyPath;
+use super::super::pose_table::{FARTHEST, FASTEST, FASTEST_SPIN, PoseTable, PoseTableFault};
 use super::super::spec::{BatchSpec, BodySpec, OrientationSpec};
-use super::{Allowed, Checker, poses};
+use super::{Allowed, Checker};
 use crate::units::{AngularSpeed, Number, Speed, Triple};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use std::path::Path;
 
 /// Masses of one body, kg.
 const BODY_MASS: Allowed = Allowed::above(0.0).to(1e3);
 
 /// Tablets of a batch.
 const COUNT: Allowed = Allowed::from(1.0).to(1e7);
-
-/// Farthest position, m; beyond it single precision in the near-pair search is too coarse.
-pub(super) const FARTHEST: f64 = 100.0;
-
-/// Highest speed, m/s, and highest spin, rad/s, that anything starts with.
-pub(super) const FASTEST: f64 = 1e3;
-pub(super) const FASTEST_SPIN: f64 = 1e5;
 
 pub(super) fn batches(c: &mut Checker<'_>, specs: Vec<BatchSpec>) -> Vec<Batch> {
     let number = |(i, spec)| batch(c, &Checker::item("batches", i), spec);
@@ -82,13 +77,27 @@ fn in_file(c: &mut Checker<'_>, at: &KeyPath, file: String, spec: BodySpec) -> V
     if c.told(&at) {
         return Vec::new();
     }
-    match poses::read(&path) {
-        Ok(poses) => poses.into_iter().map(|pose| pose.placed(&one)).collect(),
-        Err(fault) => {
-            c.fault(&at, fault);
-            Vec::new()
-        }
+    in_table(&path, &one).unwrap_or_else(|fault| {
+        c.fault(&at, FaultKind::Poses(fault));
+        Vec::new()
+    })
+}
+
+/// Bodies like `one` in the poses of a table with the columns `x,y,z`, and as far as wanted the others of
+/// [`PoseRow`](super::super::PoseRow).
+fn in_table(path: &Path, one: &FreeBody) -> Result<Vec<FreeBody>, PoseTableFault> {
+    let mut table = PoseTable::open(path, &["x", "y", "z"])?;
+    let mut bodies = Vec::new();
+    while let Some(row) = table.next_row()? {
+        bodies.push(FreeBody {
+            position: row.position(),
+            orientation: row.orientation(),
+            velocity: row.velocity(),
+            spin: row.spin(),
+            ..*one
+        });
     }
+    if bodies.is_empty() { Err(table.fault("no row")) } else { Ok(bodies) }
 }
 
 fn body(c: &mut Checker<'_>, at: &KeyPath, spec: BodySpec) -> FreeBody {

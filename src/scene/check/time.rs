@@ -13,6 +13,9 @@ use super::{Allowed, Checker};
 /// Steps per contact unless the scene says otherwise.
 const STEPS_PER_CONTACT: f64 = 40.0;
 
+/// Steps per contact that can be asked for. Below one no contact is met; how few are worth a run is judged before it.
+const STEPS: Allowed = Allowed::from(1.0).to(1e5);
+
 /// Expected approach speed unless the scene says otherwise, m/s: that of tablets landing in a lab-scale pan.
 const IMPACT_SPEED: f64 = 0.3;
 
@@ -42,9 +45,7 @@ pub(super) fn time(c: &mut Checker<'_>, spec: TimeSpec, with_drum: bool) -> Time
     let path = at.field("step");
     let step = match spec.step {
         None => StepChoice::PerContact(STEPS_PER_CONTACT),
-        Some(StepSpec::PerContact(steps)) => {
-            StepChoice::PerContact(c.number(&path, Some(steps), Allowed::from(8.0).to(1e5)))
-        }
+        Some(StepSpec::PerContact(steps)) => StepChoice::PerContact(c.number(&path, Some(steps), STEPS)),
         Some(StepSpec::Fixed(step)) => {
             StepChoice::Fixed(c.number(&path, Some(step), Allowed::from(1e-12).to(longest)))
         }

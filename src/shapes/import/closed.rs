@@ -49,14 +49,14 @@ fn close(mut mesh: Welded) -> Result<ClosedMesh, MeshFault> {
 }
 
 /// The triangles at each edge.
-type EdgeMap = BTreeMap<[u32; 2], Vec<usize>>;
+pub(super) type EdgeMap = BTreeMap<[u32; 2], Vec<usize>>;
 
-fn edges_of([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
+pub(super) fn edges_of([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
     [(a, b), (b, c), (c, a)]
 }
 
 impl Welded {
-    fn edges(&self) -> EdgeMap {
+    pub(super) fn edges(&self) -> EdgeMap {
         let mut edges = EdgeMap::new();
         for (t, &triangle) in self.triangles.iter().enumerate() {
             for (u, v) in edges_of(triangle) {

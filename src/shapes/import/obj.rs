@@ -1,6 +1,7 @@
 //! Wavefront OBJ: vertices and faces; everything else is passed over.
 
-use super::{Facets, three_numbers};
+use super::{Facets, MOST_FACETS, three_numbers};
+use crate::scene::shown;
 use crate::shapes::{MeshFault, ShapeError};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -15,7 +16,9 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Facets, ShapeError> {
             Some("v") => vertices.push(three_numbers(path, line, words)?),
             Some("f") => {
                 let number = facets.numbers.last().map_or(1, |last| last + 1);
+                // A face with as many corners as this has too many triangles already.
                 let polygon: Vec<Vector3<f64>> = words
+                    .take(MOST_FACETS + 3)
                     .map(|word| vertex(path, line, word, number, &vertices))
                     .collect::<Result<_, _>>()?;
                 if polygon.len() < 3 {
@@ -37,11 +40,9 @@ fn vertex(
     facet: usize,
     vertices: &[Vector3<f64>],
 ) -> Result<Vector3<f64>, ShapeError> {
-    let index: i64 = word
-        .split('/')
-        .next()
-        .and_then(|first| first.parse().ok())
-        .ok_or_else(|| ShapeError::content(path, line, format!("`{word}` is not a vertex number")))?;
+    let index: i64 = word.split('/').next().and_then(|first| first.parse().ok()).ok_or_else(|| {
+        ShapeError::content(path, line, format!("`{}` is not a vertex number", shown(word)))
+    })?;
     let count = vertices.len();
     let from_end = |back: u64| count.checked_sub(usize::try_from(back).ok()?);
     let place = if index < 0 { from_end(index.unsigned_abs()) } else { usize::try_from(index - 1).ok() };

@@ -1,6 +1,7 @@
 //! PLY (Stanford), text and binary of either byte order.
 
-use super::Facets;
+use super::{Facets, MOST_FACETS};
+use crate::scene::shown;
 use crate::shapes::{MeshFault, ShapeError};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -63,6 +64,10 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Facets, ShapeError> {
                     continue;
                 };
                 let length = next(length)? as usize;
+                if length > MOST_FACETS {
+                    let fault = MeshFault::TooMany { facets: length, most: MOST_FACETS };
+                    return Err(ShapeError::mesh(path, fault));
+                }
                 let list: Vec<f64> = (0..length).map(|_| next(property.value)).collect::<Result<_, _>>()?;
                 if property.name.starts_with("vertex_ind") {
                     corners = Some(list);
@@ -133,7 +138,7 @@ fn header<'a>(path: &Path, bytes: &'a [u8]) -> Result<(Vec<Element>, Values<'a>)
         let row = String::from_utf8_lossy(&left[..end]).into_owned();
         left = &left[end + 1..];
         let words: Vec<&str> = row.split_whitespace().collect();
-        let what = || fault(line, format!("`{}` is not a line of a PLY header", row.trim()));
+        let what = || fault(line, format!("`{}` is not a line of a PLY header", shown(row.trim())));
         match words[..] {
             ["ply"] if line == 1 => {}
             _ if line == 1 => return Err(fault(1, "expected `ply`".to_owned())),

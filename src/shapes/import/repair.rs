@@ -19,6 +19,14 @@ pub enum Repair {
         /// The first.
         first: usize,
     },
+    /// Facets on the same corners as an earlier one.
+    #[error("dropped {count} facets that lie on another, the first is facet {first}")]
+    Repeated {
+        /// How many.
+        count: usize,
+        /// The first.
+        first: usize,
+    },
     /// Facets whose corners are on a line; the neighbour at the longest edge was split instead.
     #[error("replaced {count} facets whose corners are on a line, the first is facet {first}")]
     Straight {

@@ -1,6 +1,7 @@
 //! STL, binary and text.
 
 use super::{Facets, three_numbers};
+use crate::scene::shown;
 use crate::shapes::{MeshFault, ShapeError};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -47,6 +48,7 @@ fn ascii(path: &Path, text: &str) -> Result<Facets, ShapeError> {
     for (line, row) in text.lines().enumerate().map(|(k, row)| (k + 1, row)) {
         let mut words = row.split_whitespace();
         match words.next().map(str::to_ascii_lowercase).as_deref() {
+            Some("vertex") if corners.len() == 3 => return fault(line, "a facet has three vertices"),
             Some("vertex") => corners.push(three_numbers(path, line, words)?),
             Some("endfacet") if corners.len() != 3 => return fault(line, "a facet has three vertices"),
             Some("endfacet") => facets.push(&std::mem::take(&mut corners)),
@@ -54,7 +56,7 @@ fn ascii(path: &Path, text: &str) -> Result<Facets, ShapeError> {
             Some("solid") => open = true,
             Some("endsolid") => open = false,
             Some("facet" | "outer" | "endloop") | None => {}
-            Some(word) => return fault(line, &format!("`{word}` is not a word of STL")),
+            Some(word) => return fault(line, &format!("`{}` is not a word of STL", shown(word))),
         }
     }
     if open {
