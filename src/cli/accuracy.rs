@@ -5,11 +5,12 @@
 //! not repeated.
 
 use super::args::AccuracyArgs;
+use super::coating::Coating;
 use super::failure::Failure;
 use super::watch::{Watch, clock};
 use super::{bed, guards, print_line};
 use crate::models::{Run, work_precision};
-use crate::observers::Observer;
+use crate::observers::{Backend, Observer};
 use crate::report::{AccuracyAxis, AccuracyCase, accuracy_page, accuracy_table};
 use crate::scene::{ContactMode, Recipe, Scene, SceneText, Shape};
 use crate::stepping::{Simulation, SimulationError};
@@ -21,9 +22,18 @@ use std::time::{Duration, Instant};
 /// Time over which energy is audited, s.
 const AUDITED: f64 = 0.25;
 
-/// Figures of the bed that are compared, with their units.
-const FIGURES: [&str; 4] =
-    ["mean_speed_m_per_s", "kinetic_energy_J", "center_angle_deg", "angle_of_repose_deg"];
+/// Figures that are compared, with their units: of the bed, and of the coating where a scene has a spray.
+const FIGURES: [&str; 7] = [
+    "mean_speed_m_per_s",
+    "kinetic_energy_J",
+    "center_angle_deg",
+    "angle_of_repose_deg",
+    "cov_inter",
+    "cov_intra",
+    "cov_intra_orientation_only",
+];
+/// How many of them are of the bed.
+const OF_BED: usize = 4;
 
 /// A choice that is varied.
 struct Axis {
@@ -56,9 +66,9 @@ impl Axis {
     }
 }
 
-/// The scene of a setting, without its spray.
+/// The scene of a setting.
 fn scene_with(args: &AccuracyArgs, sets: &[String]) -> Result<SceneText, Failure> {
-    Ok(args.scene.read_with(&[&["spray=None".to_owned()], sets].concat())?)
+    Ok(args.scene.read_with(sets)?)
 }
 
 /// What is kept of a run.
@@ -89,7 +99,7 @@ pub(super) fn accuracy(args: &AccuracyArgs) -> Result<(), Failure> {
     let mut campaign = Campaign { args, folder, watch: Watch::new(None, args.quiet)?, done: BTreeMap::new() };
     campaign.run_all(&axes)?;
     let axes: Vec<AccuracyAxis> = axes.iter().map(|axis| campaign.compared(axis)).collect();
-    campaign.write(&base.title, &axes)
+    campaign.write(&base.title, base.spray.is_some(), &axes)
 }
 
 /// Whether the clump of a shape can have any number of spheres.
@@ -247,23 +257,40 @@ impl Campaign<'_> {
         let drum = scene.drum.as_ref().ok_or(Failure::NoDrum)?;
         let mut statistics = bed::statistics(&simulation, drum);
         let frames = |time: f64| (time / scene.time.frame_interval).round().max(1.0) as u64;
+        let turning = frames(self.args.seconds);
+        let mut coating = match &scene.spray {
+            None => None,
+            Some(spray) => {
+                let zone = bed::aim(&mut simulation, spray, &mut self.watch)?;
+                Some(Coating::new(scene, &bed::of(&simulation), spray, zone, turning, Backend::Cpu)?)
+            }
+        };
         self.watch.begin("turning", self.args.seconds);
         let before = cpu_time()?;
-        let mut observers: [&mut dyn Observer; 1] = [&mut statistics];
+        let mut observers: Vec<&mut dyn Observer> = vec![&mut statistics];
+        observers.extend(coating.iter_mut().map(|coating| &mut coating.coater as &mut dyn Observer));
         let mut watch = |progress: &_| self.watch.note(progress);
-        simulation.run(0, frames(self.args.seconds), &mut observers, &mut watch)?;
+        simulation.run(0, turning, &mut observers, &mut watch)?;
         let spent = cpu_time()?.saturating_sub(before);
         let mut results = crate::report::Results::default();
         if let Some(figures) = statistics.figures() {
             bed::record(&figures, &mut results);
         }
         let of_bed = &results.bed;
-        let figures = [
+        let mut figures = vec![
             of_bed.mean_speed_m_per_s,
             of_bed.kinetic_energy_j,
             of_bed.center_angle_deg,
             of_bed.angle_of_repose_deg,
         ];
+        if let Some(coating) = &mut coating {
+            let of_coating = coating.outcome(turning, &simulation.masses())?.main;
+            figures.extend([
+                of_coating.cov_inter,
+                of_coating.cov_intra,
+                of_coating.cov_intra_orientation_only,
+            ]);
+        }
         if scene.contact.mode == ContactMode::HertzMindlin {
             simulation.audit_energy();
             simulation.run(0, frames(AUDITED), &mut [], &mut watch)?;
@@ -312,11 +339,12 @@ impl Campaign<'_> {
         }
     }
 
-    fn write(&self, title: &str, axes: &[AccuracyAxis]) -> Result<(), Failure> {
+    fn write(&self, title: &str, sprays: bool, axes: &[AccuracyAxis]) -> Result<(), Failure> {
         let mut csv = csv::Writer::from_path(self.folder.join("accuracy.csv"))
             .map_err(|fault| Failure::Output(fault.into()))?;
-        let rows = axes.iter().flat_map(|axis| axis.rows(&FIGURES));
-        let header = AccuracyAxis::header(&FIGURES);
+        let figures = &FIGURES[..if sprays { FIGURES.len() } else { OF_BED }];
+        let rows = axes.iter().flat_map(|axis| axis.rows(figures));
+        let header = AccuracyAxis::header(figures);
         for row in std::iter::once(header).chain(rows) {
             csv.write_record(row).map_err(|fault| Failure::Output(fault.into()))?;
         }

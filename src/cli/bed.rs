@@ -23,6 +23,11 @@ pub(super) struct CoatedBed<'a> {
     pub(super) drum: Option<&'a SurfaceMesh>,
 }
 
+/// The bodies of a run.
+pub(super) fn of(simulation: &Simulation) -> CoatedBed<'_> {
+    CoatedBed { shapes: simulation.shapes(), body_shapes: simulation.body_shapes(), drum: simulation.drum() }
+}
+
 /// Collects where the bodies are.
 struct Positions(Vec<Vector3<f64>>);
 

@@ -1,7 +1,6 @@
 //! `pancoat run`: fill, settle, aim, spray, and write what came out.
 
 use super::args::RunArgs;
-use super::bed::CoatedBed;
 use super::coating::Coating;
 use super::failure::Failure;
 use super::watch::Watch;
@@ -72,7 +71,7 @@ impl Session {
         let mut aim = None;
         if let Some(spray) = &scene.spray {
             let zone = bed::aim(simulation, spray, &mut self.watch)?;
-            let coating = Coating::new(&scene, &bed_of(simulation), spray, zone, frames, self.backend)?;
+            let coating = Coating::new(&scene, &bed::of(simulation), spray, zone, frames, self.backend)?;
             coating.describe(&mut self.record);
             if self.record.backend != "cpu" {
                 self.watch.say(&format!("spray drawn by {}", self.record.backend));
@@ -202,14 +201,10 @@ impl Session {
                 drum_torque: simulation.drum_torque(),
             };
             let zone = &coating.coater.zones()[0];
-            outcome.picture(&self.directory, &bed_of(simulation), drum, zone, &frame)?;
+            outcome.picture(&self.directory, &bed::of(simulation), drum, zone, &frame)?;
         }
         Ok(())
     }
-}
-
-fn bed_of(simulation: &Simulation) -> CoatedBed<'_> {
-    CoatedBed { shapes: simulation.shapes(), body_shapes: simulation.body_shapes(), drum: simulation.drum() }
 }
 
 /// How poses in a drum are stored.

@@ -33,8 +33,11 @@ pub(super) struct Outline {
 
 impl Outline {
     pub(super) fn new(clump: &Clump, first: u32) -> Self {
-        let ball =
-            |s: &crate::shapes::Sphere| Ball { center: s.center, radius: s.radius, curvature: 1.0 / s.radius };
+        let ball = |s: &crate::shapes::Sphere| Ball {
+            center: s.center,
+            radius: s.radius,
+            curvature: 1.0 / s.radius,
+        };
         let balls: Vec<Ball> = clump.spheres.iter().map(ball).collect();
         let eights = balls.chunks(8).map(|balls| {
             let lay = |of: fn(&Ball) -> f64, rest: f32| {

@@ -69,9 +69,8 @@ impl ContactField {
             press,
             law: &self.laws[press.law],
         };
-        let touching = |group: &'a Group| {
-            group.links.iter().filter(|link| link.touched()).zip(&group.findings.presses)
-        };
+        let touching =
+            |group: &'a Group| group.links.iter().filter(|link| link.touched()).zip(&group.findings.presses);
         let pairs = self.groups.iter().flat_map(touching).map(move |(link, press)| {
             state(press, link.a, Partner::Body(link.b as usize), (link.i.into(), link.j.into()))
         });

@@ -193,7 +193,16 @@ impl ContactField {
         let walls = |((watches, lists), findings)| {
             DESK.with_borrow_mut(|desk| {
                 let task = WallTask {
-                    watches, lists, desk, findings, setting, laws, damping, keep_contacts, boundaries, world,
+                    watches,
+                    lists,
+                    desk,
+                    findings,
+                    setting,
+                    laws,
+                    damping,
+                    keep_contacts,
+                    boundaries,
+                    world,
                 };
                 pulp::Arch::new().dispatch(task);
             });

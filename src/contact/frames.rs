@@ -38,11 +38,8 @@ impl Frame {
     /// From this body's centre of mass to another's, m.
     #[inline(always)]
     pub(super) fn to(&self, other: &Self) -> Four {
-        let mut to = [0.0; 4];
-        for k in 0..4 {
-            to[k] = other.position[k] - self.position[k];
-        }
-        to
+        let (from, to) = (&self.position, &other.position);
+        [to[0] - from[0], to[1] - from[1], to[2] - from[2], to[3] - from[3]]
     }
 }
 
