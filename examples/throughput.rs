@@ -3,7 +3,8 @@
 //! `cargo run --release --example throughput -- peers50 --seconds 1`
 //!
 //! Cases: `round`, the embedded scene with its spray; `peers20`, `peers50`, `peers100`, 770 round tablets of so many spheres in a plain drum of 200 mm, and
-//! `spheres`, 770 spheres in the same drum, from the start states in `scenes/peers`; `--dt` sets another step, s.
+//! `spheres`, 770 spheres in the same drum, from the start states in `scenes/peers`; `--dt` sets another step, s. `--times 10`
+//! makes that drum and its bed ten times as wide, the bodies numbered at random: what the size of a bed costs.
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 #[path = "common/peers_scene.rs"]
@@ -12,17 +13,21 @@ mod peers_scene;
 use pancoat::observers::{BedSurface, Coater, Observer};
 use pancoat::scene::{Scene, Settle, StepChoice};
 use pancoat::stepping::Simulation;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
 
 fn main() {
     let mut args = std::env::args().skip(1);
     let case = args.next().unwrap_or_else(|| "peers50".into());
-    let (mut seconds, mut threads, mut dt) = (0.5, 1, None);
+    let (mut seconds, mut threads, mut dt, mut times) = (0.5, 1, None, 1);
     while let Some(arg) = args.next() {
         let value: f64 = args.next().and_then(|v| v.parse().ok()).expect("an option has a number");
         match arg.as_str() {
             "--seconds" => seconds = value,
             "--threads" => threads = value as usize,
             "--dt" => dt = Some(value),
+            "--times" => times = value as usize,
             other => panic!("unknown option {other}"),
         }
     }
@@ -30,6 +35,7 @@ fn main() {
     let mut scene = if case == "round" { round(dt) } else { peers_scene::peers_scene(&case, 0.5, dt) };
     if case != "round" {
         scene.time.settle = Settle::For(0.2);
+        widen(&mut scene, times);
     }
     let mut simulation = Simulation::new(&scene).expect("the scene is built");
     simulation.fill(&mut |_| true).expect("the pan is filled");
@@ -57,6 +63,9 @@ fn main() {
         "simulated_s": seconds,
         "cpu_s_per_simulated_s": (cpu_seconds() - cpu) / seconds,
         "wall_s_per_simulated_s": wall.elapsed().as_secs_f64() / seconds,
+        "cpu_ns_per_body_step": (cpu_seconds() - cpu) / seconds * simulation.time_step().step
+            / simulation.body_shapes().len() as f64 * 1e9,
+        "peak_kB_per_body": peak_kb() / simulation.body_shapes().len() as f64,
         "phases": phases,
         "state_hash": simulation.state_hash(),
     });
@@ -69,6 +78,33 @@ fn round(dt: Option<f64>) -> Scene {
         scene.time.step = StepChoice::Fixed(dt);
     }
     scene
+}
+
+/// Puts `times` beds of bodies on end, in a drum as much wider.
+fn widen(scene: &mut Scene, times: usize) {
+    let width = peers_scene::WIDTH;
+    let bed = std::mem::take(&mut scene.bodies);
+    let shift = |k: usize| (k as f64 - 0.5 * (times as f64 - 1.0)) * width;
+    let mut bodies: Vec<_> = (0..times)
+        .flat_map(|k| {
+            bed.iter().cloned().map(move |mut body| {
+                body.position.z += shift(k);
+                body
+            })
+        })
+        .collect();
+    if times > 1 {
+        bodies.shuffle(&mut ChaCha8Rng::seed_from_u64(1));
+    }
+    scene.bodies = bodies;
+    scene.drum.iter_mut().for_each(|drum| drum.width *= times as f64);
+}
+
+/// Largest memory of this process so far, kB.
+fn peak_kb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    line.and_then(|line| line.split_whitespace().next()?.parse().ok()).unwrap_or(f64::NAN)
 }
 
 /// CPU time of this process so far, s, from the kernel's clock ticks (100 a second).

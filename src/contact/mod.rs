@@ -5,6 +5,7 @@
 //! conserved to round-off.
 
 mod batch;
+mod block;
 mod body;
 mod energy;
 mod extents;

@@ -91,7 +91,11 @@ impl ImpulseWorld {
     /// When the mesh has no triangle.
     pub fn add_mesh(&mut self, mesh: &SurfaceMesh, material: usize) {
         let vertices = mesh.vertices.iter().map(to_f32).collect();
-        let shape = SharedShape::trimesh(vertices, mesh.triangles.clone()).expect("a mesh has triangles");
+        // Contacts turn with the surface, not with the edges between its triangles, and come from its front alone: what is
+        // pressed through by less than its thickness is pushed back.
+        let flags = TriMeshFlags::FIX_INTERNAL_EDGES;
+        let shape = SharedShape::trimesh_with_flags(vertices, mesh.triangles.clone(), flags)
+            .expect("a mesh has triangles");
         self.add_surface(ColliderBuilder::new(shape), material);
     }
 

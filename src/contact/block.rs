@@ -1,0 +1,170 @@
+//! Eight contacts side by side: every lane is computed by the same operations.
+
+use super::energy::Press;
+use super::law::{Dashpots, PairLaw, Spring, Touch};
+use super::side::Felt;
+use crate::scene::TangentialLaw;
+use nalgebra::Vector3;
+
+/// Contacts in a block.
+pub(super) const LANES: usize = 8;
+type Lanes = [f64; LANES];
+type Lanes3 = [Lanes; 3];
+
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    pub law: usize,
+    pub arm: Lanes3,
+    pub between: Lanes3,
+    pub reach: Lanes,
+    pub radius: Lanes,
+    pub curvature: Lanes,
+    pub sharpness: Lanes,
+    pub mass: Lanes,
+    pub drift: Lanes3,
+    pub turn: Lanes3,
+    pub spin: Lanes3,
+    pub stretch: Lanes3,
+    pub stretch_radius: Lanes,
+    pub normal: Lanes3,
+    pub overlap: Lanes,
+    pub contact_radius: Lanes,
+    pub velocity: Lanes3,
+    pub dashpot: [Lanes; 2],
+    pub force: Lanes3,
+    pub torque: Lanes3,
+}
+
+const ZERO: Lanes = [0.0; LANES];
+const ONE: Lanes = [1.0; LANES];
+const ZERO3: Lanes3 = [ZERO; 3];
+
+/// A block of contacts nobody asks for: each lane is worked out, so it must hold numbers.
+pub(super) const EMPTY: Block = Block {
+    law: 0,
+    arm: ZERO3,
+    between: [ONE, ZERO, ZERO],
+    reach: ONE,
+    radius: ONE,
+    curvature: ONE,
+    sharpness: ONE,
+    mass: ONE,
+    drift: ZERO3,
+    turn: ZERO3,
+    spin: ZERO3,
+    stretch: ZERO3,
+    stretch_radius: ONE,
+    normal: ZERO3,
+    overlap: ZERO,
+    contact_radius: ZERO,
+    velocity: ZERO3,
+    dashpot: [ZERO; 2],
+    force: ZERO3,
+    torque: ZERO3,
+};
+
+#[inline(always)]
+pub(super) fn get(lanes: &Lanes3, k: usize) -> Vector3<f64> {
+    Vector3::new(lanes[0][k], lanes[1][k], lanes[2][k])
+}
+
+#[inline(always)]
+pub(super) fn set(lanes: &mut Lanes3, k: usize, v: &Vector3<f64>) {
+    (lanes[0][k], lanes[1][k], lanes[2][k]) = (v.x, v.y, v.z);
+}
+
+impl Block {
+    /// Where and how the contacts touch, and the dashpots of each by itself.
+    #[inline(always)]
+    pub(super) fn place(&mut self, law: &PairLaw, inside: f64) {
+        for k in 0..LANES {
+            let between = get(&self.between, k);
+            let distance = between.norm();
+            let normal = between / distance;
+            let overlap = self.reach[k] - distance;
+            let contact_radius = (overlap / self.curvature[k]).sqrt();
+            let arm = get(&self.arm, k) + normal * (self.radius[k] - inside * overlap);
+            let velocity = get(&self.drift, k) + get(&self.turn, k).cross(&arm);
+            let Dashpots { normal: across, tangential: along } = law.dashpots(contact_radius, self.mass[k]);
+            set(&mut self.arm, k, &arm);
+            set(&mut self.normal, k, &normal);
+            set(&mut self.velocity, k, &velocity);
+            self.overlap[k] = overlap;
+            self.contact_radius[k] = contact_radius;
+            self.dashpot[0][k] = across;
+            self.dashpot[1][k] = along;
+        }
+    }
+
+    /// Forces; springs move on.
+    #[inline(always)]
+    pub(super) fn press(&mut self, law: &PairLaw, dt: f64) {
+        match law.tangential {
+            TangentialLaw::Total => self.press_by(&PairLaw { tangential: TangentialLaw::Total, ..*law }, dt),
+            TangentialLaw::Incremental => {
+                self.press_by(&PairLaw { tangential: TangentialLaw::Incremental, ..*law }, dt);
+            }
+            TangentialLaw::Rescaled => {
+                self.press_by(&PairLaw { tangential: TangentialLaw::Rescaled, ..*law }, dt);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn press_by(&mut self, law: &PairLaw, dt: f64) {
+        for k in 0..LANES {
+            let normal = get(&self.normal, k);
+            let touch = Touch {
+                normal,
+                overlap: self.overlap[k],
+                velocity: get(&self.velocity, k),
+                twirl: get(&self.spin, k).dot(&normal),
+            };
+            let dashpots = Dashpots { normal: self.dashpot[0][k], tangential: self.dashpot[1][k] };
+            let mut spring = self.spring(k);
+            let pressed = law.force(&touch, self.contact_radius[k], dashpots, dt, &mut spring);
+            let force = normal * pressed.normal + pressed.tangential;
+            set(&mut self.force, k, &force);
+            set(&mut self.torque, k, &get(&self.arm, k).cross(&force));
+            set(&mut self.stretch, k, &spring.stretch);
+            self.stretch_radius[k] = spring.radius;
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn spring(&self, k: usize) -> Spring {
+        Spring { stretch: get(&self.stretch, k), radius: self.stretch_radius[k] }
+    }
+
+    pub(super) fn pressed(&self, k: usize, laws: &[PairLaw], dt: f64) -> Press {
+        let (law, spring, normal) = (&laws[self.law], self.spring(k), get(&self.normal, k));
+        let (force, velocity) = (get(&self.force, k), get(&self.velocity, k));
+        let slip = (velocity - normal * velocity.dot(&normal)) * dt;
+        let spring_force = law.spring_force(&spring, &slip);
+        let across = normal * force.dot(&normal);
+        let elastic = normal * (2.0 / 3.0 * law.normal_stiffness(spring.radius) * self.overlap[k]);
+        Press {
+            law: self.law,
+            normal,
+            overlap: self.overlap[k],
+            arm: get(&self.arm, k),
+            slip,
+            spring,
+            spring_force,
+            dashpot_forces: [across - elastic, force - across - spring_force],
+            force,
+        }
+    }
+
+    pub(super) fn felt(&self, k: usize, offset: &Vector3<f64>) -> Felt {
+        let normal = get(&self.normal, k);
+        let arm = get(&self.arm, k);
+        Felt {
+            normal,
+            arm_a: arm,
+            arm_b: arm - offset,
+            speed: get(&self.velocity, k).dot(&normal),
+            contact_radius: self.contact_radius[k],
+        }
+    }
+}
