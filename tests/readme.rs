@@ -28,6 +28,15 @@ fn small(arguments: &str) -> [&'static str; 2] {
     [batch, "time.settle=For(Ms(100))"]
 }
 
+/// The arguments as a shell takes them apart.
+fn words(arguments: &str) -> Vec<String> {
+    let shell =
+        std::process::Command::new("bash").args(["-c", &format!("printf '%s\\n' {arguments}")]).output();
+    let shell = shell.expect("bash runs");
+    assert!(shell.status.success(), "{arguments}: {}", String::from_utf8_lossy(&shell.stderr));
+    String::from_utf8(shell.stdout).expect("is text").lines().map(str::to_owned).collect()
+}
+
 #[test]
 fn commands_run_as_written() {
     let folder = tempfile::tempdir().expect("can be made");
@@ -40,7 +49,7 @@ fn commands_run_as_written() {
             continue;
         };
         let mut command = Command::cargo_bin("pancoat").expect("is built");
-        command.current_dir(folder.path()).args(arguments.split_whitespace());
+        command.current_dir(folder.path()).args(words(arguments));
         if arguments.starts_with("run ") {
             command.args(["--seconds", "0.6", "--quiet"]);
             for set in small(arguments) {

@@ -23,14 +23,13 @@ use std::time::{Duration, Instant};
 const AUDITED: f64 = 0.25;
 
 /// Figures that are compared, with their units: of the bed, and of the coating where a scene has a spray.
-const FIGURES: [&str; 7] = [
+const FIGURES: [&str; 6] = [
     "mean_speed_m_per_s",
     "kinetic_energy_J",
     "center_angle_deg",
     "angle_of_repose_deg",
     "cov_inter",
     "cov_intra",
-    "cov_intra_orientation_only",
 ];
 /// How many of them are of the bed.
 const OF_BED: usize = 4;
@@ -285,11 +284,7 @@ impl Campaign<'_> {
         ];
         if let Some(coating) = &mut coating {
             let of_coating = coating.outcome(turning, &simulation.masses())?.main;
-            figures.extend([
-                of_coating.cov_inter,
-                of_coating.cov_intra,
-                of_coating.cov_intra_orientation_only,
-            ]);
+            figures.extend([of_coating.cov_inter, of_coating.cov_intra]);
         }
         if scene.contact.mode == ContactMode::HertzMindlin {
             simulation.audit_energy();

@@ -26,7 +26,7 @@ impl SceneArg {
         let overrides = [&self.overrides[..], more].concat();
         let bare = self.scene.extension().is_none() && self.scene.parent() == Some(Path::new(""));
         match self.scene.to_str() {
-            Some(name) if bare && !self.scene.exists() => SceneText::embedded(name, &overrides),
+            Some(name) if bare && !self.scene.is_file() => SceneText::embedded(name, &overrides),
             _ => SceneText::read(&self.scene, &overrides),
         }
     }

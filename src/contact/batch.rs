@@ -164,15 +164,13 @@ impl Batch {
         }
     }
 
-    /// Forces of all contacts taken. `sides` are the two partners of a meeting; `done` gets what they do to each other,
-    /// the list their springs belong to, and the springs, in the order in which they came.
+    /// Forces of all contacts taken. `sides` are the two partners of a meeting.
     #[inline(always)]
     pub(super) fn work_out<'a>(
         &mut self,
         laws: &[PairLaw],
         rule: &Rule,
         sides: impl Fn(u32, u32) -> (Side<'a>, Side<'a>),
-        mut done: impl FnMut(Exchange, usize, &mut dyn Iterator<Item = Spring>),
     ) {
         let blocks = &mut self.blocks[..self.used];
         for block in blocks.iter_mut() {
@@ -186,10 +184,16 @@ impl Batch {
         for block in blocks.iter_mut() {
             block.press(&laws[block.law], rule.dt);
         }
-        for meeting in &self.meetings {
-            let mut springs = meeting.lanes().map(|(at, k)| blocks[at].spring(k));
-            done(meeting.exchange(blocks), meeting.list, &mut springs);
-        }
+    }
+
+    /// What was worked out, in the order in which it was taken: what two bodies do to each other, the list their springs
+    /// belong to, and the springs.
+    #[inline(always)]
+    pub(super) fn outcome(&self) -> impl Iterator<Item = (Exchange, usize, impl Iterator<Item = Spring>)> {
+        self.meetings.iter().map(|meeting| {
+            let springs = meeting.lanes().map(|(at, k)| self.blocks[at].spring(k));
+            (meeting.exchange(&self.blocks), meeting.list, springs)
+        })
     }
 
     /// What the contacts worked out last came to, in the order in which they were taken.

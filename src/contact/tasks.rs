@@ -97,10 +97,11 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
                 batch.take(&shared, &links.place(k, setting));
             }
             if batch.len() >= BATCH || first == links.touching() {
-                batch.work_out(self.laws, &rule, sides, |exchange, _, springs| {
+                batch.work_out(self.laws, &rule, sides);
+                for (exchange, _, springs) in batch.outcome() {
                     findings.touching.push(exchange);
                     links.keep(springs);
-                });
+                }
                 if self.keep_contacts {
                     findings.presses.extend(batch.presses(self.laws, setting.dt));
                 }
@@ -158,10 +159,11 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
             lists[k].refresh(watch, setting, boundary, facets, &mut scratch.facets);
             lists[k].look(watch, k, setting, boundary, scratch, batch);
         }
-        batch.work_out(self.laws, &rule, sides, |exchange, list, springs| {
+        batch.work_out(self.laws, &rule, sides);
+        for (exchange, list, springs) in batch.outcome() {
             findings.touching.push(exchange);
             lists[list].keep(springs);
-        });
+        }
         if self.keep_contacts {
             findings.presses.extend(batch.presses(self.laws, setting.dt));
         }

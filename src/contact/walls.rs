@@ -272,7 +272,7 @@ impl WallList {
     }
 
     /// The springs of what touches, in the order of the places handed in.
-    pub(super) fn keep(&mut self, springs: &mut dyn Iterator<Item = Spring>) {
+    pub(super) fn keep(&mut self, springs: impl Iterator<Item = Spring>) {
         for (k, spring) in self.held.iter().zip(springs) {
             self.grips[*k as usize].spring = spring;
         }

@@ -14,6 +14,9 @@ use std::f64::consts::{PI, TAU};
 /// Points on the hull of a clump: 60 lie within 2 % of a tablet's radius of its surface.
 const HULL_POINTS: usize = 60;
 
+/// Thickness of walls, m: several times what a body moves in a step.
+const PLATE: f64 = 4e-3;
+
 /// Gives every contact the friction and restitution of its pair of materials.
 #[derive(Clone)]
 struct PairHooks(PairTable);
@@ -85,18 +88,22 @@ impl ImpulseWorld {
         }
     }
 
-    /// Adds a driven triangle surface.
+    /// Adds a driven triangle surface, each facet as a plate behind it.
+    ///
+    /// Rapier's own triangle meshes have no inside: what a body is pressed into them by may push it on to the other side,
+    /// and tablets of a slowly turning drum cling to its wall or leave it.
     ///
     /// # Panics
-    /// When the mesh has no triangle.
+    /// When the mesh has no triangle of any area.
     pub fn add_mesh(&mut self, mesh: &SurfaceMesh, material: usize) {
-        let vertices = mesh.vertices.iter().map(to_f32).collect();
-        // Contacts turn with the surface, not with the edges between its triangles, and come from its front alone: what is
-        // pressed through by less than its thickness is pushed back.
-        let flags = TriMeshFlags::FIX_INTERNAL_EDGES;
-        let shape = SharedShape::trimesh_with_flags(vertices, mesh.triangles.clone(), flags)
-            .expect("a mesh has triangles");
-        self.add_surface(ColliderBuilder::new(shape), material);
+        let plates = (0..mesh.triangles.len()).filter_map(|t| {
+            let corners = mesh.triangles[t].map(|v| mesh.vertices[v as usize]);
+            let back = mesh.normal(t) * -PLATE;
+            let points: Vec<Vec3> =
+                corners.iter().flat_map(|corner| [to_f32(corner), to_f32(&(corner + back))]).collect();
+            SharedShape::convex_hull(&points).map(|plate| (Pose::IDENTITY, plate))
+        });
+        self.add_surface(ColliderBuilder::new(SharedShape::compound(plates.collect())), material);
     }
 
     /// Adds a driven unbounded plane with its unit normal towards the bodies.
