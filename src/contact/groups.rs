@@ -1,7 +1,7 @@
 //! Near pairs in groups: what one task works on lies together, and a search changes few of them.
 
 use super::links::Link;
-use super::pairs::Pair;
+use super::pairs::{Pair, PairList};
 use super::tasks::Findings;
 
 /// Bodies whose pairs with later bodies make a group: a fixed number, so that results do not depend on the number of
@@ -15,6 +15,8 @@ pub(super) struct Group {
     pub wakes: Vec<f64>,
     /// In order.
     pub pairs: Vec<Pair>,
+    /// The lists of `pairs`, in the same order.
+    pub lists: Vec<PairList>,
     /// Spheres of the pairs that may touch, in order.
     pub links: Vec<Link>,
     pub findings: Findings,
@@ -33,6 +35,8 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
     for parted in parted.chunk_by(|x, y| group(x.0) == group(y.0)) {
         if let Some(group) = groups.get_mut(group(parted[0].0)) {
             let stays = |key| parted.binary_search(&key).is_err();
+            let mut pairs = group.pairs.iter();
+            group.lists.retain(|_| pairs.next().is_some_and(|pair| stays(pair.key())));
             group.pairs.retain(|pair| stays(pair.key()));
             group.links.retain(|link| stays(link.bodies()));
             group.wake();
@@ -43,6 +47,7 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
         for key in met {
             if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
                 group.pairs.insert(at, Pair::new(*key));
+                group.lists.insert(at, PairList::new());
             }
         }
         group.wake();

@@ -19,14 +19,19 @@ use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 use wide::f32x8;
 
-/// Two bodies, and the lease of their list; what it lists are [`Links`].
-#[derive(Debug, Clone, PartialEq)]
+/// Two bodies near each other: what is read of them to know whether their list is good.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pair {
     /// Bodies, `a < b`.
     pub a: u32,
     pub b: u32,
     /// Sum of the odometers up to which the list is complete, m.
     mark: f64,
+}
+
+/// The lease of a pair's list; what it lists are [`Links`].
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PairList {
     listed: Lease,
     /// Unit vector from a to b along which their surfaces were nearest, a's axes.
     axis: Vector3<f64>,
@@ -94,7 +99,7 @@ pub(super) struct Scratch {
 
 impl Pair {
     pub(super) fn new((a, b): (u32, u32)) -> Self {
-        Self { a, b, mark: f64::NEG_INFINITY, listed: Lease::NONE, axis: Vector3::zeros() }
+        Self { a, b, mark: f64::NEG_INFINITY }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
@@ -106,17 +111,24 @@ impl Pair {
     pub(super) fn left(&self, odometers: &[f64]) -> f64 {
         self.mark - (odometers[self.a as usize] + odometers[self.b as usize])
     }
+}
 
-    /// Sees whether the list is still complete, and makes it anew if not. Returns what the bodies may move from now on,
+impl PairList {
+    pub(super) fn new() -> Self {
+        Self { listed: Lease::NONE, axis: Vector3::zeros() }
+    }
+
+    /// Sees whether the list of `pair` is still complete, and makes it anew if not. Returns what the bodies may move from now on,
     /// m, and whether the list is new.
     #[inline(always)]
     pub(super) fn renew(
         &mut self,
+        pair: &mut Pair,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
         links: &mut Links,
     ) -> (f64, bool) {
-        let (a, b) = (self.a as usize, self.b as usize);
+        let (a, b) = (pair.a as usize, pair.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
         let at = mb.seen_from(ma);
@@ -125,10 +137,10 @@ impl Pair {
         if anew {
             let skin = skin(setting, ma, mb, oa.reach + ob.reach);
             self.list([oa, ob], at, skin, scratch);
-            links.replace(self.key(), (oa.first, ob.first), &scratch.spheres);
+            links.replace(pair.key(), (oa.first, ob.first), &scratch.spheres);
             left = self.listed.allowance;
         }
-        self.mark = setting.odometers[a] + setting.odometers[b] + left;
+        pair.mark = setting.odometers[a] + setting.odometers[b] + left;
         (left, anew)
     }
 

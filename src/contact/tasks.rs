@@ -66,7 +66,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     fn call(self) {
         let Self { setting, .. } = self;
         let Desk { scratch, batch, links } = self.desk;
-        let Group { wakes, pairs, links: kept, findings } = self.group;
+        let Group { wakes, pairs, lists, links: kept, findings } = self.group;
         findings.clear();
         std::mem::swap(&mut links.all, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
@@ -76,7 +76,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
             let mut left = pairs[k].left(setting.odometers);
             if left <= 0.0 {
                 let anew;
-                (left, anew) = pairs[k].renew(setting, scratch, links);
+                (left, anew) = lists[k].renew(&mut pairs[k], setting, scratch, links);
                 findings.rebuilt += u32::from(anew);
             }
             wakes[k] = setting.pace + 0.5 * left;
