@@ -11,11 +11,14 @@
 mod peers_scene;
 
 use pancoat::observers::{BedSurface, Coater, Observer};
-use pancoat::scene::{Scene, Settle, StepChoice};
-use pancoat::stepping::Simulation;
+use pancoat::scene::{FreeBody, Scene, Settle, StepChoice};
+use pancoat::stepping::{BodyState, Simulation};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
+
+/// By how much the drum of `peers100` and the distances in it are larger.
+const ROOM: f64 = 1.02;
 
 fn main() {
     let mut args = std::env::args().skip(1);
@@ -35,6 +38,15 @@ fn main() {
     let mut scene = if case == "round" { round(dt) } else { peers_scene::peers_scene(&case, 0.5, dt) };
     if case != "round" {
         scene.time.settle = Settle::For(0.2);
+        if case == "peers100" {
+            // The start state holds tablets of 20 spheres, which are smaller: these must have room.
+            scene.bodies = settled(peers_scene::peers_scene("peers50", 0.5, None));
+            scene.bodies.iter_mut().for_each(|body| body.position *= ROOM);
+            scene
+                .drum
+                .iter_mut()
+                .for_each(|drum| (drum.diameter, drum.width) = (drum.diameter * ROOM, drum.width * ROOM));
+        }
         widen(&mut scene, times);
     }
     let mut simulation = Simulation::new(&scene).expect("the scene is built");
@@ -78,6 +90,22 @@ fn round(dt: Option<f64>) -> Scene {
         scene.time.step = StepChoice::Fixed(dt);
     }
     scene
+}
+
+/// The bodies of a scene after 0.2 s.
+fn settled(mut scene: Scene) -> Vec<FreeBody> {
+    scene.time.settle = Settle::For(0.2);
+    let mut simulation = Simulation::new(&scene).expect("the scene is built");
+    simulation.settle(&mut |_| true).expect("the bed settles");
+    let bodies = scene.bodies.into_iter().zip(simulation.states());
+    let moved = |(body, state): (FreeBody, BodyState)| FreeBody {
+        position: state.position,
+        orientation: state.orientation,
+        velocity: state.velocity,
+        spin: state.spin,
+        ..body
+    };
+    bodies.map(moved).collect()
 }
 
 /// Puts `times` beds of bodies on end, in a drum as much wider.
