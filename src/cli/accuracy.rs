@@ -1,8 +1,8 @@
 //! `pancoat accuracy`: what each choice of the numerics costs, and what it does to the results.
 //!
-//! One choice at a time is varied about the scene. Every case fills, settles and turns with several seeds, on one thread;
-//! CPU time is that of the turning bed alone, energy is audited afterwards. Runs that are done are kept in the folder and
-//! not repeated.
+//! One choice at a time is varied about the scene. Every case fills, settles, and turns under the scene's spray, if it has
+//! one, with several seeds, on one thread; CPU time is that of turning and spraying alone, energy is audited afterwards.
+//! Runs that are done are kept in the folder and not repeated.
 
 use super::args::AccuracyArgs;
 use super::coating::Coating;

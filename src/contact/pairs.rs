@@ -118,8 +118,8 @@ impl PairList {
         Self { listed: Lease::NONE, axis: Vector3::zeros() }
     }
 
-    /// Sees whether the list of `pair` is still complete, and makes it anew if not. Returns what the bodies may move from now on,
-    /// m, and whether the list is new.
+    /// Sees whether the list of `pair` is still complete, and makes it anew if not. Returns what the bodies may move from
+    /// now on, m, and whether the list is new.
     #[inline(always)]
     pub(super) fn renew(
         &mut self,

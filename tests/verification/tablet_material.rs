@@ -6,6 +6,7 @@
 use super::support::{Single, law, near, run, set};
 use nalgebra::Vector3;
 use pancoat::scene::ContactSettings;
+use pancoat::stepping::BodyState;
 
 /// Angle, then e_t and spin of each.
 const TABLE: [(f64, [[f64; 2]; 3]); 6] = [
@@ -17,17 +18,22 @@ const TABLE: [(f64, [[f64; 2]; 3]); 6] = [
     (80.0, [[0.84541, -28.546], [0.85950, -25.943], [0.86392, -25.127]]),
 ];
 
+/// Speeds along the plane and onto it, m/s, of an impact at an angle, and how the scene ends with `more` set.
+fn impact(degrees: f64, more: &[String]) -> (f64, f64, BodyState) {
+    let (s, c) = degrees.to_radians().sin_cos();
+    let (vx, vy) = (0.3 * s, 0.3 * c);
+    let set = set![
+        "bodies[0].velocity=MPerS({vx}, -{vy}, 0)",
+        "time.impact_speed=MPerS({vy})",
+        "time.duration=Ms(20)",
+    ];
+    (vx, vy, run("tablet_impact", &[&set[..], more].concat())[0])
+}
+
 #[test]
 fn rebound_and_spin() {
     for (degrees, [as_is, no_dashpot, no_tension]) in TABLE {
-        let (s, c) = degrees.to_radians().sin_cos();
-        let (vx, vy) = (0.3 * s, 0.3 * c);
-        let set = set![
-            "bodies[0].velocity=MPerS({vx}, -{vy}, 0)",
-            "time.impact_speed=MPerS({vy})",
-            "time.duration=Ms(20)",
-        ];
-        let state = run("tablet_impact", &set)[0];
+        let (vx, vy, state) = impact(degrees, &[]);
         near(state.velocity.x / vx, as_is[0], 2e-3, "e_t of the scene");
         near(state.spin.z, as_is[1], 5e-3, "spin of the scene");
         for (cut, dashpot, expected) in
@@ -55,14 +61,7 @@ fn rebound_and_spin() {
 #[test]
 fn damping_by_the_contact_is_the_same_for_one_sphere() {
     for (degrees, [as_is, ..]) in TABLE {
-        let (s, c) = degrees.to_radians().sin_cos();
-        let (vx, vy) = (0.3 * s, 0.3 * c);
-        let set = set![
-            "bodies[0].velocity=MPerS({vx}, -{vy}, 0)",
-            "time.impact_speed=MPerS({vy})",
-            "time.duration=Ms(20)",
-            "contact=(damping_mass: Contact)",
-        ];
-        near(run("tablet_impact", &set)[0].velocity.x / vx, as_is[0], 2e-3, "e_t");
+        let (vx, _, state) = impact(degrees, &set!["contact=(damping_mass: Contact)"]);
+        near(state.velocity.x / vx, as_is[0], 2e-3, "e_t");
     }
 }
