@@ -29,11 +29,9 @@ impl Bed {
         scene.time.settle = Settle::For(0.5);
         let mut simulation = Simulation::new(&scene).expect("the scene is built");
         simulation.settle(&mut |_| true).expect("it runs");
-        let motions = simulation.states().into_iter().map(|state| Motion {
-            position: state.position,
-            rotation: state.orientation.to_rotation_matrix().into_inner(),
-            velocity: state.velocity,
-            spin: state.spin,
+        let motions = simulation.states().into_iter().map(|state| {
+            let rotation = state.orientation.to_rotation_matrix().into_inner();
+            Motion::steady(state.position, rotation, state.velocity, state.spin)
         });
         let drum = Motion { spin: Vector3::z() * 2.303_835, ..Motion::at_rest() };
         Self { motions: motions.collect(), drum, simulation, scene }

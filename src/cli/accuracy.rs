@@ -127,7 +127,7 @@ fn axes(scene: &Scene) -> Vec<Axis> {
             name: "step",
             against: "the finest step",
             why: "The contact law fixes the result only in the limit of a fine step.",
-            settings: [10.0, 15.0, 25.0, 40.0, 100.0]
+            settings: [10.0, 15.0, 20.0, 30.0, 40.0, 100.0]
                 .map(|n| one(&format!("{n} steps per contact"), format!("time.step=PerContact({n})")))
                 .into_iter()
                 .chain([as_is()])

@@ -71,7 +71,10 @@ pub(super) struct Shared {
     /// Velocity of b against a at the contact point is `drift + turn × arm`.
     drift: Vector3<f64>,
     turn: Vector3<f64>,
-    /// Mean spin of the two bodies.
+    /// The same for the mean velocity of the step.
+    mean_drift: Vector3<f64>,
+    mean_turn: Vector3<f64>,
+    /// Mean spin of the two bodies in the step.
     spin: Vector3<f64>,
 }
 
@@ -130,7 +133,9 @@ impl Batch {
             mass: 1.0 / (side_a.inverse_mass + side_b.inverse_mass),
             drift: mb.velocity - ma.velocity - mb.spin.cross(&offset),
             turn: mb.spin - ma.spin,
-            spin: (ma.spin + mb.spin) * 0.5,
+            mean_drift: mb.mean_velocity - ma.mean_velocity - mb.mean_spin.cross(&offset),
+            mean_turn: mb.mean_spin - ma.mean_spin,
+            spin: (ma.mean_spin + mb.mean_spin) * 0.5,
         }
     }
 
@@ -155,6 +160,8 @@ impl Batch {
         block.mass[k] = shared.mass;
         set(&mut block.drift, k, &shared.drift);
         set(&mut block.turn, k, &shared.turn);
+        set(&mut block.mean_drift, k, &shared.mean_drift);
+        set(&mut block.mean_turn, k, &shared.mean_turn);
         set(&mut block.spin, k, &shared.spin);
         set(&mut block.stretch, k, &place.spring.stretch);
         block.stretch_radius[k] = place.spring.radius;

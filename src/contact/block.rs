@@ -23,6 +23,8 @@ pub(super) struct Block {
     pub mass: Lanes,
     pub drift: Lanes3,
     pub turn: Lanes3,
+    pub mean_drift: Lanes3,
+    pub mean_turn: Lanes3,
     pub spin: Lanes3,
     pub stretch: Lanes3,
     pub stretch_radius: Lanes,
@@ -51,6 +53,8 @@ pub(super) const EMPTY: Block = Block {
     mass: ONE,
     drift: ZERO3,
     turn: ZERO3,
+    mean_drift: ZERO3,
+    mean_turn: ZERO3,
     spin: ZERO3,
     stretch: ZERO3,
     stretch_radius: ONE,
@@ -118,6 +122,7 @@ impl Block {
                 normal,
                 overlap: self.overlap[k],
                 velocity: get(&self.velocity, k),
+                mean_velocity: self.mean_velocity(k),
                 twirl: get(&self.spin, k).dot(&normal),
             };
             let dashpots = Dashpots { normal: self.dashpot[0][k], tangential: self.dashpot[1][k] };
@@ -131,6 +136,12 @@ impl Block {
         }
     }
 
+    /// Of b against a at the contact point in the step, m/s.
+    #[inline(always)]
+    fn mean_velocity(&self, k: usize) -> Vector3<f64> {
+        get(&self.mean_drift, k) + get(&self.mean_turn, k).cross(&get(&self.arm, k))
+    }
+
     #[inline(always)]
     pub(super) fn spring(&self, k: usize) -> Spring {
         Spring { stretch: get(&self.stretch, k), radius: self.stretch_radius[k] }
@@ -138,9 +149,9 @@ impl Block {
 
     pub(super) fn pressed(&self, k: usize, laws: &[PairLaw], dt: f64) -> Press {
         let (law, spring, normal) = (&laws[self.law], self.spring(k), get(&self.normal, k));
-        let (force, velocity) = (get(&self.force, k), get(&self.velocity, k));
+        let (force, velocity) = (get(&self.force, k), self.mean_velocity(k));
         let slip = (velocity - normal * velocity.dot(&normal)) * dt;
-        let spring_force = law.spring_force(&spring, &slip);
+        let spring_force = law.spring_force(&spring);
         let across = normal * force.dot(&normal);
         let elastic = normal * (2.0 / 3.0 * law.normal_stiffness(spring.radius) * self.overlap[k]);
         Press {

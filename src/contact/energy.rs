@@ -6,8 +6,10 @@
 //! No choice of E closes the sum, because these laws have no potential; so the difference between the work done on the
 //! springs and the growth of E has an account of its own, which is negative where a law creates energy.
 //!
-//! In a step the spring's force f does the work f·u on the slip u. Friction cuts the spring back by the plastic slip p,
-//! which slides f·p away. What of the work is neither slid away nor in the springs afterwards is the change of stiffness.
+//! In a step the spring takes up the work ½ (f₀ + f)·u on the slip u, with its force f₀ before and f after. Friction cuts the
+//! spring back by the plastic slip p, which slides ½ (f₀ + f) p away. What of the work is neither slid away nor in the
+//! springs afterwards is the change of stiffness. On the bodies f acts over half the slip before and half the slip after:
+//! the halves outside a contact, before it begins and after it ends, stretch nothing and are slid away.
 
 use super::field::{ContactField, Partner};
 use super::groups::Group;
@@ -41,7 +43,7 @@ pub struct Press {
     pub overlap: f64,
     /// From the body's centre of mass to the common contact point, m.
     pub arm: Vector3<f64>,
-    /// Slip of the step, the tangential velocity that stretched the spring times the step, m.
+    /// Slip of the step that led here, m.
     pub slip: Vector3<f64>,
     /// The spring at the end of the step.
     pub spring: Spring,
@@ -115,19 +117,38 @@ impl ContactState<'_> {
         self.law.spring_energy(&self.press.spring_force, self.press.spring.radius)
     }
 
-    /// Work of the slip on the spring in the step, J.
-    pub fn work(&self) -> f64 {
-        -self.press.spring_force.dot(&self.press.slip)
+    /// What stretched the spring in the step, m: a contact that is new began half a step ago.
+    fn way(&self, before: Option<&Spring>) -> Vector3<f64> {
+        self.press.slip * if before.is_some() { 1.0 } else { 0.5 }
     }
 
-    /// What of it was slid away, J; `before` is the spring after the step before, if it touched then.
+    /// Work of the step on the spring, J; `before` is the spring after the step before, if it touched then.
+    pub fn work(&self, before: Option<&Spring>) -> f64 {
+        let old = before.map_or_else(Vector3::zeros, |spring| self.law.spring_force(spring));
+        -0.5 * (self.press.spring_force + old).dot(&self.way(before))
+    }
+
+    /// Work that the force of a contact's first step does outside of it, J.
+    pub fn outside_before(&self, before: Option<&Spring>) -> f64 {
+        if before.is_some() { 0.0 } else { -0.5 * self.press.spring_force.dot(&self.way(before)) }
+    }
+
+    /// Work that the force would do outside the contact if this were its last step of `dt`, s, in J; `velocity` is that of
+    /// the partner against the body there after the kick, m/s.
+    pub fn outside_after(&self, velocity: &Vector3<f64>, dt: f64) -> f64 {
+        -self.press.spring_force.dot(&(velocity * dt - self.press.slip * 0.5))
+    }
+
+    /// What of the work was slid away, J.
     pub fn slid(&self, before: Option<&Spring>) -> f64 {
-        let Press { normal, slip, spring, spring_force, force, .. } = self.press;
+        let Press { normal, spring, spring_force, force, .. } = self.press;
         let held = spring_force.norm();
         if held < self.law.friction * force.dot(normal).abs() * (1.0 - 1e-9) {
             return 0.0;
         }
         let stiffness = self.law.stiffness(spring.radius);
+        let way = self.way(before);
+        let old = before.map_or(0.0, |spring| self.law.spring_force(spring).norm());
         let (before, old_radius) = before.map_or((Vector3::zeros(), 0.0), |b| (b.stretch, b.radius));
         // Units of the spring per displacement, and what unloading left of it.
         let (unit, kept) = match self.law.tangential {
@@ -136,8 +157,8 @@ impl ContactState<'_> {
             TangentialLaw::Incremental | TangentialLaw::Rescaled => (stiffness, 1.0),
         };
         let flat = before - normal * before.dot(normal);
-        let trial = flat * kept + slip * (0.5 * unit);
-        held * (trial.norm() / unit - held / stiffness)
+        let trial = flat * kept + way * unit;
+        0.5 * (old + held) * (trial.norm() / unit - held / stiffness)
     }
 }
 
@@ -174,11 +195,11 @@ mod tests {
             let (overlap, dt, normal) = (1e-4, 1e-5, Vector3::y());
             let radius = (3e-3_f64 * overlap).sqrt();
             let limit = 0.5 * 2.0 / 3.0 * law.normal_stiffness(radius) * overlap;
-            let (mut spring, mut work, mut slid, mut way, mut last) = (Spring::default(), 0.0, 0.0, 0.0, 0.0);
+            let (mut spring, mut work, mut slid, mut way) = (Spring::default(), 0.0, 0.0, 0.0);
             for k in 0..4000 {
                 let velocity = Vector3::x() * 0.05 * (f64::from(k) * 2e-3).cos();
                 let before = spring;
-                let touch = Touch { normal, overlap, velocity, twirl: 0.0 };
+                let touch = Touch { normal, overlap, velocity, mean_velocity: velocity, twirl: 0.0 };
                 let dashpots = Dashpots { normal: 0.0, tangential: 0.0 };
                 let force = law.force(&touch, radius, dashpots, dt, &mut spring);
                 let press = Press {
@@ -192,7 +213,7 @@ mod tests {
                     dashpot_forces: [Vector3::zeros(); 2],
                     force: force.tangential + normal * force.normal,
                 };
-                assert!((law.spring_force(&spring, &press.slip) - force.tangential).norm() < 1e-12 * limit);
+                assert!((law.spring_force(&spring) - force.tangential).norm() < 1e-12 * limit);
                 let state = ContactState {
                     body: 0,
                     partner: Partner::Body(1),
@@ -206,10 +227,9 @@ mod tests {
                 } else {
                     assert_eq!(lost, 0.0);
                 }
-                (work, slid, last) = (work + state.work(), slid + lost, 0.5 * state.work());
+                (work, slid) = (work + state.work(Some(&before)), slid + lost);
             }
-            // Half of the last step's work lies ahead.
-            let stored = work - last - slid;
+            let stored = work - slid;
             let energy = 0.5 * spring_force_squared(&law, &spring, radius) / law.tangential_stiffness(radius);
             assert!((stored / energy - 1.0).abs() < 2e-2, "{tangential:?}: {stored} for {energy}");
             assert!((slid / (limit * way) - 1.0).abs() < 1e-3, "{slid} for {}", limit * way);
@@ -244,7 +264,7 @@ mod tests {
             let (old, new) = (press(1e-5, 0.1), press(4e-5, 0.1 * grown));
             let state =
                 |press| ContactState { body: 0, partner: Partner::Body(1), parts: (0, 0), press, law: &law };
-            assert_eq!((state(&new).work(), state(&new).slid(Some(&old.spring))), (0.0, 0.0));
+            assert_eq!((state(&new).work(Some(&old.spring)), state(&new).slid(Some(&old.spring))), (0.0, 0.0));
             let before = state(&old).spring_energy();
             assert!(((state(&new).spring_energy() - before) / before - change).abs() < 1e-12);
         }

@@ -41,7 +41,6 @@ pub struct PairLaw {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Spring {
     /// Tangential displacement ξ, m, for [`TangentialLaw::Total`]; elastic tangential force over −1, N, for the others.
-    /// Half a step ahead of the force it came from.
     pub stretch: Vector3<f64>,
     /// √(R* δ) of the last step, m: the contact radius, used by [`TangentialLaw::Rescaled`].
     pub radius: f64,
@@ -70,7 +69,9 @@ pub struct Touch {
     pub overlap: f64,
     /// Velocity of b against a at the contact point, m/s.
     pub velocity: Vector3<f64>,
-    /// Mean angular velocity of the two bodies about n, rad/s: the spring turns with it.
+    /// The same on the mean of the step that led here, m/s.
+    pub mean_velocity: Vector3<f64>,
+    /// Mean angular velocity of the two bodies about n in that step, rad/s: the spring turns with it.
     pub twirl: f64,
 }
 
@@ -175,36 +176,35 @@ impl PairLaw {
         }
         let slip = touch.velocity - n * approach;
         let stiffness = self.tangential_stiffness(contact_radius);
-        // The spring was left half a step ahead, at the velocity of then: with the other half at the present velocity its
-        // displacement is the trapezoidal sum of the slip.
-        let half = slip * (0.5 * dt);
+        // The spring follows the places of the bodies. What touches for the first time began to, on average, half a step ago.
+        let since = if spring.radius > 0.0 { dt } else { 0.5 * dt };
+        let moved = (touch.mean_velocity - n * touch.mean_velocity.dot(&n)) * since;
         let mut stretch = carried(&spring.stretch, &n, touch.twirl * dt);
-        let (scale, half) = match self.tangential {
-            TangentialLaw::Total => (stiffness, half),
-            TangentialLaw::Incremental => (1.0, half * stiffness),
+        let (scale, moved) = match self.tangential {
+            TangentialLaw::Total => (stiffness, moved),
+            TangentialLaw::Incremental => (1.0, moved * stiffness),
             TangentialLaw::Rescaled => {
                 stretch *= if contact_radius < spring.radius { contact_radius / spring.radius } else { 1.0 };
-                (1.0, half * stiffness)
+                (1.0, moved * stiffness)
             }
         };
-        stretch += half;
+        stretch += moved;
         let limit = self.friction * normal.abs();
         let held = scale * stretch.norm();
         let sliding = held > limit;
         stretch *= if sliding { limit / held } else { 1.0 };
-        *spring = Spring { stretch: stretch + half, radius: contact_radius };
+        *spring = Spring { stretch, radius: contact_radius };
         let dashpot = if sliding { 0.0 } else { dashpots.tangential };
         ContactForce { normal, tangential: -(stretch * scale) - slip * dashpot, sliding }
     }
 }
 
 impl PairLaw {
-    /// Force on b of the spring that [`PairLaw::force`] left behind after the slip of a step, m.
-    pub(super) fn spring_force(&self, spring: &Spring, slip: &Vector3<f64>) -> Vector3<f64> {
-        let stiffness = self.tangential_stiffness(spring.radius);
+    /// Force on b of a spring, N.
+    pub(super) fn spring_force(&self, spring: &Spring) -> Vector3<f64> {
         match self.tangential {
-            TangentialLaw::Total => (slip * 0.5 - spring.stretch) * stiffness,
-            TangentialLaw::Incremental | TangentialLaw::Rescaled => slip * (0.5 * stiffness) - spring.stretch,
+            TangentialLaw::Total => -spring.stretch * self.tangential_stiffness(spring.radius),
+            TangentialLaw::Incremental | TangentialLaw::Rescaled => -spring.stretch,
         }
     }
 }

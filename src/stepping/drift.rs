@@ -42,6 +42,8 @@ struct Eight {
     turn: Lanes3,
     /// The same as a quaternion.
     turned: [Lanes; 4],
+    /// The same over the step, world axes, rad/s.
+    mean_spin: Lanes3,
     /// At the end of the step, as far as known before its forces.
     next_velocity: Lanes3,
     next_spin: Lanes3,
@@ -134,9 +136,10 @@ impl Eight {
             let w1 = m1.component_div(&inertia);
             let w2 = (m1.cross(&w) + m.cross(&w1)).component_div(&inertia);
             let turn = (w + (w1 + (w2 / 3.0 + w.cross(&w1) / 6.0) * dt) * (0.5 * dt)) * dt;
-            let turned = into_world(&axes, &turn) - carrier * dt;
+            let mean_spin = into_world(&axes, &turn) / dt;
+            set(&mut self.mean_spin, k, &mean_spin);
             set(&mut self.turn, k, &turn);
-            (self.path[0][k], self.path[1][k]) = (moved.norm(), turned.norm());
+            (self.path[0][k], self.path[1][k]) = (moved.norm(), (mean_spin - carrier).norm() * dt);
 
             // By series, so that no library sine enters: truncation below h¹⁰/10! < 3e-17 for half angles h < 0.1.
             let h2 = 0.25 * turn.norm_squared();
@@ -201,6 +204,8 @@ impl Eight {
             ]),
             velocity: get(&self.next_velocity, k),
             spin: get(&self.next_spin, k),
+            mean_velocity: get(&self.velocity, k),
+            mean_spin: get(&self.mean_spin, k),
         };
     }
 }

@@ -70,13 +70,22 @@ impl Simulation {
 /// A contact's name: body, partner (surfaces after bodies), parts.
 type Key = (usize, bool, usize, (u32, u32));
 
+/// A contact after a step.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    key: Key,
+    spring: Spring,
+    /// What its force has still done if it is the last, J.
+    last: f64,
+}
+
 /// Books energy from step to step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EnergyAudit {
     energy: Energy,
     begun: bool,
-    /// Springs after the last step, sorted.
-    springs: Vec<(Key, Spring)>,
+    /// Contacts after the last step, sorted.
+    held: Vec<Held>,
 }
 
 impl EnergyAudit {
@@ -103,8 +112,9 @@ impl EnergyAudit {
         let Energy { elastic_tangential, .. } = self.energy;
         let mut now =
             Energy { kinetic, potential, elastic_normal: 0.0, elastic_tangential: 0.0, ..self.energy };
-        let mut springs = Vec::with_capacity(self.springs.len());
+        let mut held = Vec::with_capacity(self.held.len());
         let mut stretching = 0.0;
+        now.sliding += self.held.iter().map(|held| held.last).sum::<f64>();
         for contact in contacts {
             let (a, press) = (&ended[contact.body], contact.press);
             let (b, surface, partner) = match contact.partner {
@@ -120,17 +130,20 @@ impl EnergyAudit {
                 now.wall_work -= press.force.dot(&there) * dt;
             }
             let key = (contact.body, surface, partner, contact.parts);
-            let known = self.springs.binary_search_by_key(&key, |(key, _)| *key);
-            let slid = contact.slid(known.ok().map(|k| &self.springs[k].1));
-            stretching += contact.work() - slid;
-            now.sliding += slid;
+            let known = self.held.binary_search_by_key(&key, |held| held.key).ok().map(|k| &self.held[k]);
+            let before = known.map(|held| &held.spring);
+            let slid = contact.slid(before);
+            stretching += contact.work(before) - slid;
+            // It was not the last.
+            let last = known.map_or(0.0, |held| held.last);
+            now.sliding += slid + contact.outside_before(before) - last;
             now.elastic_normal += contact.normal_energy();
             now.elastic_tangential += contact.spring_energy();
-            springs.push((key, press.spring));
+            held.push(Held { key, spring: press.spring, last: contact.outside_after(&velocity, dt) });
         }
         now.stiffness_change += stretching - (now.elastic_tangential - elastic_tangential);
-        springs.sort_unstable_by_key(|(key, _)| *key);
-        self.springs = springs;
+        held.sort_unstable_by_key(|held| held.key);
+        self.held = held;
         if !std::mem::replace(&mut self.begun, true) {
             let Energy { kinetic, potential, elastic_normal, elastic_tangential, .. } = now;
             now = Energy { kinetic, potential, elastic_normal, elastic_tangential, ..Energy::default() };

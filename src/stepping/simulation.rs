@@ -179,8 +179,7 @@ impl Simulation {
     pub(super) fn add_body(&mut self, shape: usize, material: usize, mass: f64, state: &BodyState) {
         let inertia = self.shapes[shape].inertia_per_mass * mass;
         let rotation = state.orientation.to_rotation_matrix().into_inner();
-        let motion =
-            Motion { position: state.position, rotation, velocity: state.velocity, spin: state.spin };
+        let motion = Motion::steady(state.position, rotation, state.velocity, state.spin);
         self.world.add_tablet(&self.shapes[shape].clump, mass, &inertia, &motion);
         self.field.add_body(shape, material, mass, &inertia);
         let clump = &self.shapes[shape].clump;
@@ -271,12 +270,8 @@ impl Simulation {
     fn move_surfaces(&mut self) {
         let time = self.clock();
         for (motion, (velocity, spin)) in self.surfaces.iter_mut().zip(&self.drives) {
-            *motion = Motion {
-                position: velocity * time,
-                rotation: Rotation3::new(spin * time).into_inner(),
-                velocity: *velocity,
-                spin: *spin,
-            };
+            let rotation = Rotation3::new(spin * time).into_inner();
+            *motion = Motion::steady(velocity * time, rotation, *velocity, *spin);
         }
     }
 

@@ -181,12 +181,8 @@ impl ImpulseWorld {
             let (at, q) = (body.position().translation, body.position().rotation);
             let [w, x, y, z] = [q.w, q.x, q.y, q.z].map(f64::from);
             let orientation = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
-            let motion = Motion {
-                position: vector(at),
-                rotation: orientation.to_rotation_matrix().into_inner(),
-                velocity: vector(body.linvel()),
-                spin: vector(body.angvel()),
-            };
+            let rotation = orientation.to_rotation_matrix().into_inner();
+            let motion = Motion::steady(vector(at), rotation, vector(body.linvel()), vector(body.angvel()));
             (orientation, motion)
         })
     }
