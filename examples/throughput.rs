@@ -38,9 +38,11 @@ fn main() {
     let mut scene = if case == "round" { round(dt) } else { peers_scene::peers_scene(&case, 0.5, dt) };
     if case != "round" {
         scene.time.settle = Settle::For(0.2);
-        if case == "peers100" {
-            // The start state holds tablets of 20 spheres, which are smaller: these must have room.
+        // The start state holds tablets of 20 spheres, which are smaller: finer ones begin deep in each other.
+        if case == "peers50" || case == "peers100" {
             scene.bodies = settled(peers_scene::peers_scene("peers50", 0.5, None));
+        }
+        if case == "peers100" {
             scene.bodies.iter_mut().for_each(|body| body.position *= ROOM);
             scene
                 .drum

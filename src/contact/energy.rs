@@ -264,7 +264,10 @@ mod tests {
             let (old, new) = (press(1e-5, 0.1), press(4e-5, 0.1 * grown));
             let state =
                 |press| ContactState { body: 0, partner: Partner::Body(1), parts: (0, 0), press, law: &law };
-            assert_eq!((state(&new).work(Some(&old.spring)), state(&new).slid(Some(&old.spring))), (0.0, 0.0));
+            assert_eq!(
+                (state(&new).work(Some(&old.spring)), state(&new).slid(Some(&old.spring))),
+                (0.0, 0.0)
+            );
             let before = state(&old).spring_energy();
             assert!(((state(&new).spring_energy() - before) / before - change).abs() < 1e-12);
         }

@@ -4,6 +4,7 @@
 //! and restitution are those of the scene's pairs of materials.
 
 use super::motion::Motion;
+use super::plates::plates;
 use super::{pose, to_f32, tuning};
 use crate::scene::PairTable;
 use crate::shapes::{Clump, SurfaceMesh};
@@ -14,21 +15,76 @@ use std::f64::consts::{PI, TAU};
 /// Points on the hull of a clump: 60 lie within 2 % of a tablet's radius of its surface.
 const HULL_POINTS: usize = 60;
 
-/// Thickness of walls, m: several times what a body moves in a step.
-const PLATE: f64 = 4e-3;
+/// Largest angle, as its cosine, between a contact and the face of the plate it is with.
+const SIDEWAYS: f32 = 0.5;
+/// Depth behind the face, m, up to which a contact with the side of a plate is one with its face.
+const SHALLOW: f32 = 2e-3;
+/// Natural frequency, Hz, and damping ratio of contacts at walls: twice as stiff and half as damped as Rapier's own, with
+/// which baffles push tablets into the ends of a drum.
+const WALLS: (f32, f32) = (120.0, 5.0);
+/// Largest speed, m/s, at which bodies are moved out of each other and of walls: that of a drum's wall.
+const CORRECTION: f32 = 0.3;
 
-/// Gives every contact the friction and restitution of its pair of materials.
+/// Gives every contact the friction and restitution of its pair of materials, and turns contacts with the sides of a
+/// wall's plates into contacts with their faces: where plates meet there is nothing to bump into.
 #[derive(Clone)]
-struct PairHooks(PairTable);
+struct PairHooks {
+    pairs: PairTable,
+    /// Of each surface, by index, a point and the normal of each plate's face in the surface's axes; none for a plane.
+    faces: Vec<Vec<(Vec3, Vec3)>>,
+}
+
+/// What Rapier keeps with a body: its material, and for a surface its index + 1.
+fn user_data(material: usize, surface: Option<usize>) -> u128 {
+    material as u128 | (surface.map_or(0, |index| index as u128 + 1) << 64)
+}
+
+impl PairHooks {
+    /// The face of a plate of a surface: a point and the normal, world axes.
+    fn face(&self, surface: &RigidBody, plate: u32) -> Option<(Vec3, Vec3)> {
+        let index = ((surface.user_data >> 64) as usize).checked_sub(1)?;
+        let (point, normal) = self.faces[index].get(plate as usize)?;
+        Some((*surface.position() * *point, surface.position().rotation * *normal))
+    }
+}
+
+/// Makes contacts at the side of a plate contacts with its face, or none if they are deep behind it. `first`: the plate
+/// is the first of the two bodies.
+fn face_up(contacts: &mut ModifiableManifold<'_>, (point, face): (Vec3, Vec3), first: bool) {
+    let sign = if first { 1.0 } else { -1.0 };
+    if contacts.normal.dot(face) * sign >= SIDEWAYS {
+        return;
+    }
+    *contacts.normal = face * sign;
+    let mut deepest = 0.0_f32;
+    for contact in contacts.solver_contacts.iter_mut() {
+        let (wall, body) = if first {
+            (&mut contact.anchor1, contact.anchor2)
+        } else {
+            (&mut contact.anchor2, contact.anchor1)
+        };
+        contact.dist = (body - point).dot(face);
+        *wall = body - face * contact.dist;
+        deepest = deepest.max(-contact.dist);
+    }
+    if deepest > SHALLOW {
+        contacts.solver_contacts.clear();
+    }
+}
 
 impl PhysicsHooks for PairHooks {
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
-        let material = |body: Option<RigidBodyHandle>| body.map(|b| context.bodies[b].user_data as usize);
-        let (a, b) = (material(context.rigid_body1), material(context.rigid_body2));
-        if let (Some(a), Some(b), Some(contacts)) = (a, b, context.rigid_mut()) {
-            let pair = self.0.get(a, b);
-            *contacts.friction = pair.friction as f32;
-            *contacts.restitution = pair.restitution as f32;
+        let (Some(a), Some(b)) = (context.rigid_body1, context.rigid_body2) else { return };
+        let (a, b) = (&context.bodies[a], &context.bodies[b]);
+        let Some(contacts) = context.rigid_mut() else { return };
+        let material = |body: &RigidBody| body.user_data as u64 as usize;
+        let pair = self.pairs.get(material(a), material(b));
+        *contacts.friction = pair.friction as f32;
+        *contacts.restitution = pair.restitution as f32;
+        if let Some(face) = self.face(a, contacts.manifold.subshape1) {
+            face_up(contacts, face, true);
+        } else if let Some(face) = self.face(b, contacts.manifold.subshape2) {
+            face_up(contacts, face, false);
         }
     }
 }
@@ -79,41 +135,38 @@ impl ImpulseWorld {
             pipeline: PhysicsPipeline::new(),
             parameters: IntegrationParameters {
                 length_unit: tuning::LENGTH_UNIT,
+                normalized_max_corrective_velocity: CORRECTION / tuning::LENGTH_UNIT,
+                static_contact_softness: SpringCoefficients::new(WALLS.0, WALLS.1),
                 ..IntegrationParameters::default()
             },
             gravity: to_f32(gravity),
-            hooks: PairHooks(pairs),
+            hooks: PairHooks { pairs, faces: Vec::new() },
             tablets: Vec::new(),
             surfaces: Vec::new(),
         }
     }
 
-    /// Adds a driven triangle surface, each facet as a plate behind it.
-    ///
-    /// Rapier's own triangle meshes have no inside: what a body is pressed into them by may push it on to the other side,
-    /// and tablets of a slowly turning drum cling to its wall or leave it.
+    /// Adds a driven triangle surface as plates.
     ///
     /// # Panics
-    /// When the mesh has no triangle of any area.
+    /// When the mesh has no triangle.
     pub fn add_mesh(&mut self, mesh: &SurfaceMesh, material: usize) {
-        let plates = (0..mesh.triangles.len()).filter_map(|t| {
-            let corners = mesh.triangles[t].map(|v| mesh.vertices[v as usize]);
-            let back = mesh.normal(t) * -PLATE;
-            let points: Vec<Vec3> =
-                corners.iter().flat_map(|corner| [to_f32(corner), to_f32(&(corner + back))]).collect();
-            SharedShape::convex_hull(&points).map(|plate| (Pose::IDENTITY, plate))
-        });
-        self.add_surface(ColliderBuilder::new(SharedShape::compound(plates.collect())), material);
+        let plates = plates(mesh);
+        let faces = plates.iter().map(|plate| (to_f32(&plate.point), to_f32(&plate.normal))).collect();
+        let shapes = plates.into_iter().map(|plate| (plate.pose, plate.shape)).collect();
+        self.add_surface(ColliderBuilder::new(SharedShape::compound(shapes)), material, faces);
     }
 
     /// Adds a driven unbounded plane with its unit normal towards the bodies.
     pub fn add_plane(&mut self, point: &Vector3<f64>, normal: &Vector3<f64>, material: usize) {
         let shape = SharedShape::halfspace(to_f32(normal));
-        self.add_surface(ColliderBuilder::new(shape).translation(to_f32(point)), material);
+        self.add_surface(ColliderBuilder::new(shape).translation(to_f32(point)), material, Vec::new());
     }
 
-    fn add_surface(&mut self, collider: ColliderBuilder, material: usize) {
-        let body = RigidBodyBuilder::kinematic_position_based().user_data(material as u128);
+    fn add_surface(&mut self, collider: ColliderBuilder, material: usize, faces: Vec<(Vec3, Vec3)>) {
+        let data = user_data(material, Some(self.surfaces.len()));
+        let body = RigidBodyBuilder::kinematic_position_based().user_data(data);
+        self.hooks.faces.push(faces);
         let handle = self.bodies.insert(body);
         let collider = collider.active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
@@ -134,7 +187,7 @@ impl ImpulseWorld {
             .linvel(to_f32(&motion.velocity))
             .angvel(to_f32(&motion.spin))
             .can_sleep(false)
-            .user_data(material as u128);
+            .user_data(user_data(material, None));
         let handle = self.bodies.insert(body);
         let properties = MassProperties::new(Vec3::ZERO, mass as f32, to_f32(inertia));
         let collider = ColliderBuilder::new(hull(clump))

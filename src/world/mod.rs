@@ -13,6 +13,7 @@ pub(crate) mod harvest;
 mod hooks;
 mod impulse;
 mod motion;
+mod plates;
 mod tuning;
 
 pub use impulse::ImpulseWorld;

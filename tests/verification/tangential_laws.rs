@@ -61,7 +61,8 @@ fn work(law: &PairLaw, corners: &[(f64, f64)]) -> f64 {
         for k in 1..=steps {
             let overlap = d0 + (d1 - d0) * f64::from(k) / f64::from(steps);
             let velocity = Vector3::new(ds / dt, 0.0, 0.0);
-            let touch = Touch { normal: Vector3::y(), overlap, velocity, mean_velocity: velocity, twirl: 0.0 };
+            let touch =
+                Touch { normal: Vector3::y(), overlap, velocity, mean_velocity: velocity, twirl: 0.0 };
             let force = law.force(&touch, (radius * overlap).sqrt(), none, dt, &mut spring).tangential.x;
             work += 0.5 * (force + before) * ds;
             before = force;
