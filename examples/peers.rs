@@ -44,9 +44,10 @@ fn main() {
     let frames = (window[1] / scene.time.frame_interval).round() as u64;
     for frame in 0..frames {
         simulation.run(frame, 1, &mut [&mut watch], &mut |_| true).expect("it runs");
-        eprint!("\r{:.0} of {:.0} s", (frame + 1) as f64 * scene.time.frame_interval, window[1]);
+        if frame % 50 == 49 {
+            eprintln!("{:.0} of {:.0} s", (frame + 1) as f64 * scene.time.frame_interval, window[1]);
+        }
     }
-    eprintln!();
     let figures = watch.figures();
 
     let reference = reference(&name);

@@ -30,14 +30,14 @@ impl Extents {
     /// Fills `spheres` with those that come within `depth`, m, of the farthest, in order.
     #[inline(always)]
     pub(super) fn foremost(&self, depth: f32, spheres: &mut Vec<u16>) {
-        spheres.clear();
-        let from = f32x8::splat(self.most - depth);
+        spheres.resize(8 * self.each.len(), 0);
+        let (from, mut count) = (self.most - depth, 0);
         for (k, each) in self.each.iter().enumerate() {
-            let mut lanes = each.simd_gt(from).to_bitmask();
-            while lanes != 0 {
-                spheres.push(8 * k as u16 + lanes.trailing_zeros() as u16);
-                lanes &= lanes - 1;
+            for (lane, extent) in each.to_array().into_iter().enumerate() {
+                spheres[count] = (8 * k + lane) as u16;
+                count += usize::from(extent > from);
             }
         }
+        spheres.truncate(count);
     }
 }

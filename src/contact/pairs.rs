@@ -171,12 +171,9 @@ impl PairList {
             let [x, y, z, radius] = ob.sphere(j);
             near.push(j, apart + turn * Vector3::new(x, y, z), radius + skin + slack);
         }
-        let mut nearest = (f32::INFINITY, to_f32(&self.axis));
         of_a.foremost(depth, foremost);
-        for &i in &*foremost {
-            near.against(i, oa.sphere(i), &mut nearest, spheres);
-        }
-        self.axis = nearest.1.map(f64::from).try_normalize(0.0).unwrap_or(self.axis);
+        near.list(oa, foremost, spheres);
+        self.axis = near.nearest().map(f64::from).try_normalize(0.0).unwrap_or(self.axis);
     }
 }
 
@@ -185,6 +182,11 @@ impl PairList {
 struct Candidates {
     numbers: Vec<u16>,
     eights: Vec<Eight>,
+    /// Per lane the nearest so far to a sphere of the first: how near, m² (the square of the distance less that of the
+    /// radii), and in which direction.
+    nearest: [f32x8; 4],
+    /// Spheres of the first body, eights they meet, and what of those.
+    meeting: Vec<(u16, u16, u32)>,
 }
 
 /// A sphere nothing comes near, in places left over.
@@ -194,6 +196,7 @@ impl Candidates {
     fn clear(&mut self) {
         self.numbers.clear();
         self.eights.clear();
+        self.nearest = [f32x8::splat(f32::INFINITY), f32x8::ZERO, f32x8::ZERO, f32x8::ZERO];
     }
 
     #[inline(always)]
@@ -208,38 +211,42 @@ impl Candidates {
         self.numbers.push(number);
     }
 
-    /// Lists those that meet sphere `i`, in order. `nearest` holds how near, m² (the square of the distance less that of
-    /// the radii), and in which direction the nearest so far was.
+    /// Lists what of them the `spheres` of `outline` meet, in order. What is met can hardly be foreseen, so that branches
+    /// wait until all is measured.
     #[inline(always)]
-    fn against(
-        &self,
-        i: u16,
-        [cx, cy, cz, radius]: [f32; 4],
-        nearest: &mut (f32, Vector3<f32>),
-        list: &mut Vec<(u16, u16)>,
-    ) {
-        for (at, [x, y, z, radii]) in self.eights.iter().enumerate() {
-            let mut excess = [0.0; 8];
-            for k in 0..8 {
-                let (dx, dy, dz) = (x[k] - cx, y[k] - cy, z[k] - cz);
-                let reach = radius + radii[k];
-                excess[k] = dx * dx + dy * dy + dz * dz - reach * reach;
-            }
-            let lanes = f32x8::new(excess);
-            let mut nearer = lanes.simd_lt(f32x8::splat(nearest.0)).to_bitmask();
-            while nearer != 0 {
-                let k = nearer.trailing_zeros() as usize;
-                if excess[k] < nearest.0 {
-                    *nearest = (excess[k], Vector3::new(x[k] - cx, y[k] - cy, z[k] - cz));
+    fn list(&mut self, outline: &Outline, spheres: &[u16], list: &mut Vec<(u16, u16)>) {
+        let Self { numbers, eights, nearest, meeting } = self;
+        meeting.resize(spheres.len() * eights.len(), (0, 0, 0));
+        let mut count = 0;
+        for &i in spheres {
+            let [cx, cy, cz, radius] = outline.sphere(i).map(f32x8::splat);
+            for (at, &[x, y, z, radii]) in eights.iter().enumerate() {
+                let (dx, dy, dz) = (f32x8::new(x) - cx, f32x8::new(y) - cy, f32x8::new(z) - cz);
+                let reach = radius + f32x8::new(radii);
+                let excess = dx * dx + dy * dy + dz * dz - reach * reach;
+                let nearer = excess.simd_lt(nearest[0]);
+                for (nearest, this) in nearest.iter_mut().zip([excess, dx, dy, dz]) {
+                    *nearest = nearer.select(this, *nearest);
                 }
-                nearer &= nearer - 1;
-            }
-            let mut meeting = lanes.simd_lt(f32x8::splat(0.0)).to_bitmask();
-            while meeting != 0 {
-                list.push((i, self.numbers[8 * at + meeting.trailing_zeros() as usize]));
-                meeting &= meeting - 1;
+                let met = excess.simd_lt(f32x8::ZERO).to_bitmask();
+                meeting[count] = (i, at as u16, met);
+                count += usize::from(met != 0);
             }
         }
+        for &(i, at, mut met) in &meeting[..count] {
+            while met != 0 {
+                list.push((i, numbers[8 * usize::from(at) + met.trailing_zeros() as usize]));
+                met &= met - 1;
+            }
+        }
+    }
+
+    /// Direction in which the nearest of them is; zero if none was listed.
+    #[inline(always)]
+    fn nearest(&self) -> Vector3<f32> {
+        let [excess, x, y, z] = self.nearest.map(f32x8::to_array);
+        let k = (1..8).fold(0, |least, k| if excess[k] < excess[least] { k } else { least });
+        Vector3::new(x[k], y[k], z[k])
     }
 }
 

@@ -1,7 +1,7 @@
 //! The energy audit closes: kinetic + potential + elastic + dissipated - work of the walls stays what it was.
 //!
-//! What is left, the residual, is the error of the motion, of second order in the step. Tolerance 1e-3 of what was
-//! dissipated, in a drum of clumps at 50 steps per contact (at 25 it is 2.3e-3: several spheres of a tablet touch at once
+//! What is left, the residual, is the error of the motion, of second order in the step. Tolerance 6e-4 of what was
+//! dissipated, in a drum of clumps at 50 steps per contact (at 25 it is 1.7e-3: several spheres of a tablet touch at once
 //! and vibrate faster than one); a wrong sign or factor in any account is far above it. Single events have known shares:
 //! a head-on hit at e = 0.5 takes 1 - e^2 of the energy in its centre of mass, all of it by the normal dashpot.
 
@@ -41,7 +41,7 @@ fn the_drum_closes() {
     for law in ["Total", "Incremental", "Rescaled"] {
         let energy = drum(&["time.step=PerContact(50)", &format!("contact.tangential={law}")]);
         let share = energy.residual() / energy.dissipated();
-        assert!(share.abs() < 1e-3, "{law}: {share}");
+        assert!(share.abs() < 6e-4, "{law}: {share}");
         let accounts = [energy.normal_dashpots, energy.tangential_dashpots, energy.sliding];
         assert!(accounts.iter().all(|account| *account > 0.05 * energy.dissipated()), "{energy:?}");
         assert!(energy.wall_work > 0.9 * energy.dissipated(), "the drive feeds it all: {energy:?}");
