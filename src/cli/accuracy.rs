@@ -132,8 +132,8 @@ fn axes(scene: &Scene) -> Vec<Axis> {
                 .into_iter()
                 .chain([as_is()])
                 .collect(),
-            default: 5,
-            reference: 4,
+            default: 6,
+            reference: 5,
         },
         Axis {
             name: "modulus",
