@@ -122,18 +122,19 @@ fn axes(scene: &Scene) -> Vec<Axis> {
         (format!("{count} spheres"), sets.collect())
     };
     let as_is = || ("as in the scene".to_owned(), Vec::new());
+    let steps = [10.0, 15.0, 20.0, 30.0, 40.0, 100.0];
     let mut axes = vec![
         Axis {
             name: "step",
             against: "the finest step",
             why: "The contact law fixes the result only in the limit of a fine step.",
-            settings: [10.0, 15.0, 20.0, 30.0, 40.0, 100.0]
+            settings: steps
                 .map(|n| one(&format!("{n} steps per contact"), format!("time.step=PerContact({n})")))
                 .into_iter()
                 .chain([as_is()])
                 .collect(),
-            default: 6,
-            reference: 5,
+            default: steps.len(),
+            reference: steps.len() - 1,
         },
         Axis {
             name: "modulus",

@@ -128,9 +128,10 @@ impl ContactState<'_> {
         -0.5 * (self.press.spring_force + old).dot(&self.way(before))
     }
 
-    /// Work that the force of a contact's first step does outside of it, J.
+    /// Work that the force of a contact's first step does outside of it, J: over the half step before it began, as over the
+    /// other half.
     pub fn outside_before(&self, before: Option<&Spring>) -> f64 {
-        if before.is_some() { 0.0 } else { -0.5 * self.press.spring_force.dot(&self.way(before)) }
+        if before.is_some() { 0.0 } else { self.work(None) }
     }
 
     /// Work that the force would do outside the contact if this were its last step of `dt`, s, in J; `velocity` is that of

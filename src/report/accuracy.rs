@@ -199,8 +199,8 @@ pub fn accuracy_page(title: &str, note: &str, axes: &[AccuracyAxis]) -> String {
     let mut body = section(
         "Error against run time",
         "Each choice is varied alone. The difference is the root mean square, over mean speed, kinetic energy, centre angle, \
-         angle of repose and, of a bed that was sprayed, CoV_inter and CoV_intra, of what each is off from the reference; “by chance” is the same of the half-widths of their \
-         95 % intervals. On the Pareto front nothing is both cheaper and nearer.",
+         angle of repose and, of a bed that was sprayed, CoV_inter and CoV_intra, of what each is off from the reference; \
+         “by chance” is the same of the half-widths of their 95 % intervals. On the Pareto front nothing is both cheaper and nearer.",
         &format!("<p>{}</p>\n", escape(note)),
     );
     for axis in axes {

@@ -45,7 +45,7 @@ fn imported(drum: &Drum, path: &Path, scale: f64) -> Result<ImportedSurface, Sha
         return Err(ShapeError::mesh(path, MeshFault::NotTheDrum { across_mm, wide_mm }));
     }
     let towards = |t: usize| {
-        let [a, b, c] = mesh.triangles[t].map(|v| mesh.vertices[v as usize]);
+        let [a, b, c] = mesh.corners(t);
         (b - a).cross(&(c - a)).dot(&-(a + b + c))
     };
     if (0..mesh.triangles.len()).map(towards).sum::<f64>() < 0.0 {
@@ -236,14 +236,10 @@ mod tests {
         (0..mesh.triangles.len()).filter(|&t| wanted(mesh.parts[t])).collect()
     }
 
-    fn corners(mesh: &SurfaceMesh, t: usize) -> [Vector3<f64>; 3] {
-        mesh.triangles[t].map(|v| mesh.vertices[v as usize])
-    }
-
     /// Volume inside the facets, negative where they face inwards.
     fn volume(mesh: &SurfaceMesh) -> f64 {
         let part = |t| {
-            let [a, b, c] = corners(mesh, t);
+            let [a, b, c] = mesh.corners(t);
             a.dot(&b.cross(&c)) / 6.0
         };
         (0..mesh.triangles.len()).map(part).sum()
@@ -275,7 +271,7 @@ mod tests {
     fn triangles_are_about_ten_millimetres_and_not_thin() {
         let mesh = drum_mesh(&default_pan());
         for t in 0..mesh.triangles.len() {
-            let p = corners(&mesh, t);
+            let p = mesh.corners(t);
             for k in 0..3 {
                 let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
                 assert!(u.norm() < 1.6 * TRIANGLE, "edge {}", u.norm());
@@ -308,14 +304,14 @@ mod tests {
         let mesh = drum_mesh(&drum);
         let members = of_part(&mesh, |p| p == Part::Baffle(0));
         let radial = |p: &Vector3<f64>| p.xy().norm();
-        let lowest = members.iter().flat_map(|&t| corners(&mesh, t)).map(|p| radial(&p)).fold(0.0, f64::max);
+        let lowest = members.iter().flat_map(|&t| mesh.corners(t)).map(|p| radial(&p)).fold(0.0, f64::max);
         assert!(lowest > radius && lowest < radius + 2.0 * FOOT);
         let half = baffles.thickness / 2.0 / baffles.tilt.cos();
-        let nearest = members.iter().flat_map(|&t| corners(&mesh, t)).map(|p| radial(&p)).fold(1.0, f64::min);
+        let nearest = members.iter().flat_map(|&t| mesh.corners(t)).map(|p| radial(&p)).fold(1.0, f64::min);
         assert_relative_eq!(nearest, (radius - baffles.height).hypot(half), max_relative = 1e-12);
         // A ray from the middle of the plate leaves through every face: the normals point away from the plate's middle.
         for &t in &members {
-            let p = corners(&mesh, t);
+            let p = mesh.corners(t);
             let centroid = (p[0] + p[1] + p[2]) / 3.0;
             let angle = baffles.tilt.tan() / radius * centroid.z;
             let middle = Vector3::new(angle.cos(), angle.sin(), 0.0) * (radius - baffles.height / 2.0);
@@ -325,7 +321,7 @@ mod tests {
         let angle = |z: f64| {
             let at: Vec<_> = members
                 .iter()
-                .flat_map(|&t| corners(&mesh, t))
+                .flat_map(|&t| mesh.corners(t))
                 .filter(|p| (p.z - z).abs() < 1e-12)
                 .map(|p| p.y.atan2(p.x))
                 .collect();
@@ -359,7 +355,7 @@ mod tests {
     fn baffles_follow_the_profile() {
         let (drum, mesh) = (barrel(), drum_mesh(&barrel()));
         for t in of_part(&mesh, |p| matches!(p, Part::Baffle(_))) {
-            for p in corners(&mesh, t) {
+            for p in mesh.corners(t) {
                 let above = drum.radius_at(p.z) - p.xy().norm();
                 assert!((-2.0 * FOOT..0.012 + 1e-9).contains(&above), "{above}");
             }

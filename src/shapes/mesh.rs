@@ -26,9 +26,14 @@ pub struct SurfaceMesh {
 }
 
 impl SurfaceMesh {
+    /// Corners of a triangle, m.
+    pub fn corners(&self, triangle: usize) -> [Vector3<f64>; 3] {
+        self.triangles[triangle].map(|v| self.vertices[v as usize])
+    }
+
     /// Unit normal of a triangle, pointing to the side the tablets are on.
     pub fn normal(&self, triangle: usize) -> Vector3<f64> {
-        let [a, b, c] = self.triangles[triangle].map(|v| self.vertices[v as usize]);
+        let [a, b, c] = self.corners(triangle);
         (b - a).cross(&(c - a)).normalize()
     }
 

@@ -48,16 +48,16 @@ pub(super) fn plates(mesh: &SurfaceMesh) -> Vec<Plate> {
 
 /// Whether all of a surface is before the plane of one of its facets.
 fn nothing_behind(mesh: &SurfaceMesh, facet: usize) -> bool {
-    let (point, normal) = (corners(mesh, facet)[0], mesh.normal(facet));
+    let (point, normal) = (mesh.corners(facet)[0], mesh.normal(facet));
     mesh.vertices.iter().all(|vertex| (vertex - point).dot(&normal) > -FEET)
 }
 
 /// The box behind the rectangle around a flat part.
 fn slab(mesh: &SurfaceMesh, part: &[usize]) -> Plate {
-    let ([point, next, _], normal) = (corners(mesh, part[0]), mesh.normal(part[0]));
+    let ([point, next, _], normal) = (mesh.corners(part[0]), mesh.normal(part[0]));
     let along = (next - point).normalize();
     let axes = Matrix3::from_columns(&[along, normal, along.cross(&normal)]);
-    let placed = part.iter().flat_map(|t| corners(mesh, *t)).map(|corner| axes.tr_mul(&(corner - point)));
+    let placed = part.iter().flat_map(|t| mesh.corners(*t)).map(|corner| axes.tr_mul(&(corner - point)));
     let (mut least, mut most) = (Vector3::zeros(), Vector3::zeros());
     for at in placed {
         (least, most) = (least.inf(&at), most.sup(&at));
@@ -72,13 +72,9 @@ fn slab(mesh: &SurfaceMesh, part: &[usize]) -> Plate {
     }
 }
 
-fn corners(mesh: &SurfaceMesh, facet: usize) -> [Vector3<f64>; 3] {
-    mesh.triangles[facet].map(|v| mesh.vertices[v as usize])
-}
-
 /// A facet and what is behind it up to `thickness`, m; `None` if it has no area.
 fn prism(mesh: &SurfaceMesh, facet: usize, thickness: f64) -> Option<Plate> {
-    let (corners, normal) = (corners(mesh, facet), mesh.normal(facet));
+    let (corners, normal) = (mesh.corners(facet), mesh.normal(facet));
     let points: Vec<Vec3> =
         corners.iter().flat_map(|c| [to_f32(c), to_f32(&(c - normal * thickness))]).collect();
     let shape = SharedShape::convex_hull(&points)?;
@@ -87,7 +83,7 @@ fn prism(mesh: &SurfaceMesh, facet: usize, thickness: f64) -> Option<Plate> {
 
 /// How thick the plate behind a facet may be, m: up to the next facet behind it, for a baffle has two sides.
 fn thickness(facets: &TriMesh, mesh: &SurfaceMesh, facet: usize) -> f64 {
-    let (corners, back) = (corners(mesh, facet), -mesh.normal(facet));
+    let (corners, back) = (mesh.corners(facet), -mesh.normal(facet));
     let center = (corners[0] + corners[1] + corners[2]) / 3.0;
     let places = corners.iter().map(|corner| corner.lerp(&center, 0.1)).chain([center]);
     let behind = places.filter_map(|place| {

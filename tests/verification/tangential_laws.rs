@@ -71,6 +71,19 @@ fn work(law: &PairLaw, corners: &[(f64, f64)]) -> f64 {
     work
 }
 
+/// The spring takes up the way of the bodies: half of it in the step in which they begin to touch, all of it afterwards.
+#[test]
+fn a_new_contact_began_half_a_step_ago() {
+    let law = law((1e6, 0.25), (3e6, 0.3), 100.0, 1.0, with(TangentialLaw::Total));
+    let (dt, mut spring) = (1e-5, Spring::default());
+    let velocity = Vector3::new(0.02, 0.0, 0.0);
+    let touch = Touch { normal: Vector3::y(), overlap: 1e-4, velocity, mean_velocity: velocity, twirl: 0.0 };
+    for steps in [0.5, 1.5, 2.5] {
+        law.force(&touch, 5e-4, Dashpots { normal: 0.0, tangential: 0.0 }, dt, &mut spring);
+        near(spring.stretch.x, steps * dt * velocity.x, 1e-12, "stretch");
+    }
+}
+
 #[test]
 fn only_the_rescaled_law_is_passive() {
     let (low, high, s): (f64, f64, f64) = (20e-6, 80e-6, 5e-6);
