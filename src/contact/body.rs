@@ -64,6 +64,16 @@ impl Outline {
         let [x, y, z, radius] = &self.eights[at];
         [x[k], y[k], z[k], radius[k]]
     }
+
+    /// Middle of some of the spheres, m.
+    #[inline(always)]
+    pub(super) fn middle(&self, spheres: &[u16]) -> Vector3<f32> {
+        let centers = spheres.iter().map(|k| {
+            let [x, y, z, _] = self.sphere(*k);
+            Vector3::new(x, y, z)
+        });
+        centers.sum::<Vector3<f32>>() / spheres.len() as f32
+    }
 }
 
 /// Constants of one body.

@@ -30,14 +30,35 @@ impl Extents {
     /// Fills `spheres` with those that come within `depth`, m, of the farthest, in order.
     #[inline(always)]
     pub(super) fn foremost(&self, depth: f32, spheres: &mut Vec<u16>) {
-        spheres.resize(8 * self.each.len(), 0);
-        let (from, mut count) = (self.most - depth, 0);
-        for (k, each) in self.each.iter().enumerate() {
-            for (lane, extent) in each.to_array().into_iter().enumerate() {
-                spheres[count] = (8 * k + lane) as u16;
-                count += usize::from(extent > from);
+        let from = f32x8::splat(self.most - depth);
+        spheres.clear();
+        for (k, extents) in self.each.chunks(8).enumerate() {
+            let ahead =
+                extents.iter().enumerate().map(|(k, e)| u64::from(e.simd_gt(from).to_bitmask()) << (8 * k));
+            let mut ahead = ahead.fold(0, |all, some| all | some);
+            while ahead != 0 {
+                spheres.push(64 * k as u16 + ahead.trailing_zeros() as u16);
+                ahead &= ahead - 1;
             }
         }
-        spheres.truncate(count);
+    }
+
+    /// The lever about the point `about` with which the way of a body tells that all spheres keep their gaps, m.
+    ///
+    /// A sphere at the distance d from the point, with a gap g at least, goes no farther than u + θd when the point goes
+    /// u and the body turns by θ. With u + θL at most the allowance s, s at most g, and L at least s d/g that is at most
+    /// g. Spheres within `depth` of the foremost count with g = s, the others have what they stay behind in addition.
+    #[inline(always)]
+    pub(super) fn lever(&self, outline: &Outline, about: &Vector3<f32>, depth: f32, allowance: f32) -> f32 {
+        let [px, py, pz] = [about.x, about.y, about.z].map(f32x8::splat);
+        let (from, allowance) = (f32x8::splat(self.most - depth), f32x8::splat(allowance));
+        let mut most = f32x8::ZERO;
+        for (extent, &[x, y, z, _]) in self.each.iter().zip(&outline.eights) {
+            let (dx, dy, dz) = (f32x8::new(x) - px, f32x8::new(y) - py, f32x8::new(z) - pz);
+            let gap = allowance + (from - *extent).fast_max(f32x8::ZERO);
+            most = most.fast_max((dx * dx + dy * dy + dz * dz) / (gap * gap));
+        }
+        let most = most.to_array().into_iter().fold(0.0, f32::max);
+        1.0001 * most.sqrt() * allowance.to_array()[0]
     }
 }

@@ -35,29 +35,27 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
     for parted in parted.chunk_by(|x, y| group(x.0) == group(y.0)) {
         if let Some(group) = groups.get_mut(group(parted[0].0)) {
             let stays = |key| parted.binary_search(&key).is_err();
-            let mut pairs = group.pairs.iter();
-            group.lists.retain(|_| pairs.next().is_some_and(|pair| stays(pair.key())));
-            group.pairs.retain(|pair| stays(pair.key()));
+            let staying: Vec<_> = group.pairs.iter().map(|pair| stays(pair.key())).collect();
+            keep(&mut group.wakes, &staying);
+            keep(&mut group.pairs, &staying);
+            keep(&mut group.lists, &staying);
             group.links.retain(|link| stays(link.bodies()));
-            group.wake();
         }
     }
     for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {
         let group = &mut groups[group(met[0].0)];
         for key in met {
             if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
+                group.wakes.insert(at, f64::NEG_INFINITY);
                 group.pairs.insert(at, Pair::new(*key));
                 group.lists.insert(at, PairList::new());
             }
         }
-        group.wake();
     }
 }
 
-impl Group {
-    /// Lets all pairs be looked at.
-    fn wake(&mut self) {
-        self.wakes.clear();
-        self.wakes.resize(self.pairs.len(), f64::NEG_INFINITY);
-    }
+/// Keeps those of `all` that stay.
+fn keep<T>(all: &mut Vec<T>, staying: &[bool]) {
+    let mut staying = staying.iter();
+    all.retain(|_| staying.next().is_some_and(|stays| *stays));
 }

@@ -5,8 +5,6 @@ use super::body::Ball;
 use super::frames::{Four, add_less};
 use super::law::Spring;
 use super::pairs::Setting;
-use nalgebra::Vector3;
-use std::ops::Range;
 
 /// Spheres i of body a and j of body b.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +45,10 @@ pub(super) struct Links {
     next: Vec<Link>,
     /// Those before this one are in `next`.
     passed: usize,
+    /// What touches, and memory left over.
     touching: Vec<Touching>,
+    /// How many touch.
+    found: usize,
     /// How many of those have their new spring.
     sprung: usize,
 }
@@ -57,9 +58,8 @@ pub(super) struct Links {
 struct Touching {
     /// Place in the sequence.
     link: usize,
-    /// From a's centre of mass to the centre of its sphere, m.
+    /// See [`Place`].
     arm: Four,
-    /// From there to the centre of b's sphere, m.
     between: Four,
 }
 
@@ -96,58 +96,56 @@ impl Links {
     /// Finds what touches. No branch depends on the outcome: none could be foreseen.
     #[inline(always)]
     pub(super) fn touch(&mut self, setting: &Setting<'_>) {
-        self.touching.resize(self.all.len(), Touching::default());
+        if self.touching.len() < self.all.len() {
+            self.touching.resize(self.all.len(), Touching::default());
+        }
         let mut found = 0;
         for (k, link) in self.all.iter_mut().enumerate() {
             let (a, b) = (&setting.frames[link.a as usize], &setting.frames[link.b as usize]);
             let (ball_a, ball_b) = link.balls(setting);
             let arm = a.turn(&ball_a.center);
-            let between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
+            let mut between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
             let [x, y, z, _] = between;
             let reach = ball_a.radius + ball_b.radius;
             let touches = x * x + y * y + z * z < reach * reach;
+            between[3] = reach;
             self.touching[found] = Touching { link: k, arm, between };
             found += usize::from(touches);
             link.spring.keep_if(touches);
         }
-        self.touching.truncate(found);
+        self.found = found;
         self.sprung = 0;
     }
 
     /// Number of spheres that touch.
     pub(super) fn touching(&self) -> usize {
-        self.touching.len()
+        self.found
     }
 
-    /// Those of the touching spheres from `first` on that are of the same two bodies, and the bodies.
+    /// The bodies of the touching spheres number `k`.
     #[inline(always)]
-    pub(super) fn meeting(&self, first: usize) -> (Range<usize>, (u32, u32)) {
-        let bodies = |touching: &Touching| self.all[touching.link].bodies();
-        let met = bodies(&self.touching[first]);
-        let count = self.touching[first..].iter().take_while(|touching| bodies(touching) == met).count();
-        (first..first + count, met)
+    pub(super) fn bodies(&self, k: usize) -> (u32, u32) {
+        self.all[self.touching[k].link].bodies()
     }
 
     /// Where the touching spheres number `k` are.
     #[inline(always)]
-    pub(super) fn place(&self, k: usize, setting: &Setting<'_>) -> Place {
-        let Touching { link, arm: [ax, ay, az, _], between: [x, y, z, _] } = self.touching[k];
-        let link = &self.all[link];
+    pub(super) fn place<'a>(&'a self, k: usize, setting: &Setting<'a>) -> Place<'a> {
+        let Touching { link, arm, between } = &self.touching[k];
+        let link = &self.all[*link];
         let (ball_a, ball_b) = link.balls(setting);
-        let between = Vector3::new(x, y, z);
         Place {
-            arm: Vector3::new(ax, ay, az),
-            between: if between == Vector3::zeros() { Vector3::y() * f64::EPSILON } else { between },
-            reach: ball_a.radius + ball_b.radius,
+            arm,
+            between,
             radius: ball_a.radius,
             curvature: ball_a.curvature + ball_b.curvature,
             sharpness: ball_a.curvature.max(ball_b.curvature),
-            spring: link.spring,
+            spring: &link.spring,
         }
     }
 
     /// Takes the new springs of the next contacts.
-    #[inline]
+    #[inline(always)]
     pub(super) fn keep(&mut self, springs: impl Iterator<Item = Spring>) {
         for spring in springs {
             self.all[self.touching[self.sprung].link].spring = spring;

@@ -14,6 +14,7 @@ mod frames;
 mod groups;
 #[cfg(test)]
 mod harvest;
+mod lanes;
 mod law;
 mod lease;
 mod links;

@@ -8,7 +8,6 @@
 //! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
-use super::batch::Place;
 use super::body::{Ball, BodyConstants, Eight, Outline};
 use super::extents::Extents;
 use super::frames::Frame;
@@ -61,8 +60,8 @@ impl Setting<'_> {
 
     /// Index of the law of two bodies.
     #[inline]
-    pub(super) fn law_of(&self, a: usize, b: usize) -> usize {
-        self.law(self.bodies[a].material, self.bodies[b].material)
+    pub(super) fn law_of(&self, (a, b): (u32, u32)) -> usize {
+        self.law(self.bodies[a as usize].material, self.bodies[b as usize].material)
     }
 
     /// Index of the law of two materials.
@@ -90,7 +89,6 @@ pub(super) struct Scratch {
     near: Candidates,
     /// A new list.
     spheres: Vec<(u16, u16)>,
-    pub places: Vec<Place>,
     /// Facets near a body.
     pub facets: Vec<u32>,
     /// Pairs to look at.
@@ -132,10 +130,10 @@ impl PairList {
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
         let at = mb.seen_from(ma);
-        let mut left = self.listed.left(&at, ob.reach);
+        let mut left = self.listed.left(&at);
         let anew = !self.listed.holds(left);
         if anew {
-            let skin = skin(setting, ma, mb, oa.reach + ob.reach);
+            let skin = skin(setting, ma, mb, &self.listed);
             self.list([oa, ob], at, skin, scratch);
             links.replace(pair.key(), (oa.first, ob.first), &scratch.spheres);
             left = self.listed.allowance;
@@ -158,15 +156,23 @@ impl PairList {
         let slack = rounding(oa, ob);
         // At most the gap between the bodies: what the axis leaves between them.
         let between = apart.dot(&to_f32(&self.axis)) - of_a.most - of_b.most - slack;
-        let skin = skin as f32;
-        self.listed = Lease { at, allowance: f64::from(skin.max(between)) };
+        let allowance = (skin as f32).max(between);
+        let depth = allowance - between;
+        of_b.foremost(depth.max(TIP * allowance), foremost);
+        let about = ob.middle(foremost);
+        let lever = of_b.lever(ob, &about, depth, allowance);
+        self.listed = Lease {
+            at,
+            about: about.map(f64::from),
+            lever: f64::from(lever),
+            allowance: f64::from(allowance),
+        };
         spheres.clear();
-        let depth = skin - between;
         if depth <= 0.0 {
             return;
         }
+        let skin = allowance;
         near.clear();
-        of_b.foremost(depth, foremost);
         for &j in &*foremost {
             let [x, y, z, radius] = ob.sphere(j);
             near.push(j, apart + turn * Vector3::new(x, y, z), radius + skin + slack);
@@ -258,15 +264,20 @@ fn rounding(a: &Outline, b: &Outline) -> f32 {
 
 /// Skin of a new list, m: wider for bodies that move fast against each other.
 #[inline]
-fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, reach: f64) -> f64 {
-    let between = b.position - a.position;
-    let speed = (b.velocity - a.velocity - a.spin.cross(&between)).norm() + (b.spin - a.spin).norm() * reach;
+fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, lease: &Lease) -> f64 {
+    let arm = b.rotation * lease.about;
+    let there = b.position + arm - a.position;
+    let (spin, velocity) =
+        (b.spin - a.spin, b.velocity + b.spin.cross(&arm) - a.velocity - a.spin.cross(&there));
+    let speed = velocity.norm() + spin.norm() * lease.lever;
     let (least, most) = SKIN;
     (speed * setting.dt * LENGTH * setting.skin).sqrt().clamp(least * setting.skin, most * setting.skin)
 }
 
+/// Bodies apart are followed where they are nearest, up to this share of their gap behind.
+const TIP: f32 = 1.0;
 /// Least and most skin, in common skins.
 const SKIN: (f64, f64) = (0.3, 5.0);
 /// A wide skin makes lists long, a narrow one makes them anew often: at skin s and relative speed v the one costs as
 /// s, the other as v dt/s, and both together least at s² = v dt L. This is L, in common skins.
-const LENGTH: f64 = 15.0;
+const LENGTH: f64 = 30.0;

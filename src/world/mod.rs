@@ -54,6 +54,8 @@ pub struct NearChanges {
 struct Track {
     /// Pose that Rapier knows, seen from the carrier.
     known: Relative,
+    /// Its odometer then, m.
+    noted: f64,
     /// How far the tablet may move from there, m.
     margin: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
@@ -67,7 +69,7 @@ struct Track {
 impl Track {
     /// Whether less than `share` of the margin is used up; false for a NaN pose.
     fn within(&self, now: &Relative, share: f64) -> bool {
-        now.moved_since(&self.known, self.reach) < share * self.margin
+        now.moved_since(&self.known, &Vector3::zeros(), self.reach) < share * self.margin
     }
 }
 
@@ -156,6 +158,7 @@ impl World {
         self.tablets.push((handle, collider));
         self.tracks.push(Track {
             known: Relative::NOWHERE,
+            noted: f64::NEG_INFINITY,
             margin: 0.0,
             reach: clump.reach(),
             bounding_radius: clump.bounding_radius(),
@@ -192,7 +195,8 @@ impl World {
         bodies.filter(|((track, odometer), _)| odometer.is_nan() || **odometer > track.mark).any(
             |((track, odometer), motion)| {
                 let now = motion.seen_from(carrier);
-                track.mark = odometer + track.margin - now.moved_since(&track.known, track.reach);
+                track.mark =
+                    odometer + track.margin - now.moved_since(&track.known, &Vector3::zeros(), track.reach);
                 !track.within(&now, tuning::SPENT)
             },
         )
@@ -210,6 +214,9 @@ impl World {
         }
         for (k, (body, collider)) in self.tablets.iter().enumerate() {
             let (motion, track) = (&motions[k], &mut self.tracks[k]);
+            if self.odometers[k] - track.noted < tuning::EARLY * track.margin {
+                continue;
+            }
             let now = motion.seen_from(carrier);
             if track.within(&now, tuning::EARLY) {
                 continue;
@@ -224,6 +231,7 @@ impl World {
             let bounds = self.colliders[*collider].shape().compute_aabb(&pose).loosened(margin as f32);
             self.broad_phase.set_aabb(&self.parameters, *collider, bounds);
             track.known = now;
+            track.noted = self.odometers[k];
             track.margin = margin - tuning::ROUNDING;
             track.mark = self.odometers[k] + track.margin;
         }

@@ -68,11 +68,18 @@ impl Relative {
         rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
     };
 
-    /// Most that a point of the one body within `reach` of its centre can be away from where it was `then`, m.
+    /// Most that a point of the one body within `lever` of its point `about` (its own axes, m) can be away from where it
+    /// was `then`, m.
     #[inline]
-    pub fn moved_since(&self, then: &Self, reach: f64) -> f64 {
+    pub fn moved_since(&self, then: &Self, about: &Vector3<f64>, lever: f64) -> f64 {
         // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
         let turned = (3.0 - then.rotation.dot(&self.rotation)).max(0.0).sqrt();
-        (self.position - then.position).norm() + turned * reach
+        (self.place(about) - then.place(about)).norm() + turned * lever
+    }
+
+    /// Where a point of the one body (its own axes) is in the other's, m.
+    #[inline]
+    pub fn place(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.position + self.rotation * point
     }
 }
