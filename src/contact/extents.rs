@@ -45,9 +45,9 @@ impl Extents {
 
     /// The lever about the point `about` with which the way of a body tells that all spheres keep their gaps, m.
     ///
-    /// A sphere at the distance d from the point, with a gap g at least, goes no farther than u + θd when the point goes
-    /// u and the body turns by θ. With u + θL at most the allowance s, s at most g, and L at least s d/g that is at most
-    /// g. Spheres within `depth` of the foremost count with g = s, the others have what they stay behind in addition.
+    /// A sphere at the distance d from the point goes no farther than u + θd when the point goes u and the body turns by θ.
+    /// As long as u + θL is within the allowance s, with L ≥ s d/g, that is no more than its gap g ≥ s. Spheres within
+    /// `depth` of the foremost count with g = s, the others have what they stay behind in addition.
     #[inline(always)]
     pub(super) fn lever(&self, outline: &Outline, about: &Vector3<f32>, depth: f32, allowance: f32) -> f32 {
         let [px, py, pz] = [about.x, about.y, about.z].map(f32x8::splat);

@@ -1,6 +1,5 @@
 //! All contacts of a run.
 
-use super::batch::Rule;
 use super::body::{Ball, BodyConstants, Outline};
 use super::frames::Frame;
 use super::groups::{self, Group};
@@ -147,9 +146,7 @@ impl ContactField {
 
     fn add_surface(&mut self, surface: Surface, mesh: usize, material: usize, carrier: bool) {
         debug_assert!(self.bodies.is_empty());
-        let motion = Motion::at_rest();
-        let frame = Frame::new(&motion, 0.0);
-        self.boundaries.push(Boundary { surface, mesh, material, carrier, motion, frame });
+        self.boundaries.push(Boundary { surface, mesh, material, carrier, motion: Motion::at_rest() });
         self.surface_torques.push(Vector3::zeros());
     }
 
@@ -169,11 +166,10 @@ impl ContactField {
         wrenches: &mut [Wrench],
     ) -> Tally {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
-            (boundary.motion, boundary.frame) = (*motion, Frame::new(motion, 0.0));
+            boundary.motion = *motion;
         }
         self.frames.clear();
-        let inverse_masses = self.bodies.iter().map(|body| body.inverse_mass);
-        self.frames.extend(motions.iter().zip(inverse_masses).map(|(motion, im)| Frame::new(motion, im)));
+        self.frames.extend(motions.iter().map(Frame::new));
         let setting = Setting {
             outlines: &self.outlines,
             balls: &self.balls,
@@ -186,18 +182,28 @@ impl ContactField {
             skin: self.skin,
             dt,
         };
-        let (setting, boundaries) = (&setting, &self.boundaries);
-        let (laws, damping, keep_contacts) = (&self.laws, self.damping, self.keep_contacts);
-        let rule = Rule { laws, damping, inside: 0.5, dt, keep_contacts };
+        let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
+        let (setting, keep_contacts) = (&setting, self.keep_contacts);
         let pairs = |group| {
             DESK.with_borrow_mut(|desk| {
-                pulp::Arch::new().dispatch(PairTask { group, desk, setting, rule });
+                let task = PairTask { group, desk, setting, laws, damping, keep_contacts };
+                pulp::Arch::new().dispatch(task);
             });
         };
         let walls = |((watches, lists), findings)| {
             DESK.with_borrow_mut(|desk| {
-                let rule = Rule { inside: 0.0, ..rule };
-                let task = WallTask { watches, lists, desk, findings, setting, rule, boundaries, world };
+                let task = WallTask {
+                    watches,
+                    lists,
+                    desk,
+                    findings,
+                    setting,
+                    laws,
+                    damping,
+                    keep_contacts,
+                    boundaries,
+                    world,
+                };
                 pulp::Arch::new().dispatch(task);
             });
         };

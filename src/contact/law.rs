@@ -47,22 +47,16 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// The stretch, then the radius.
-    #[inline(always)]
-    pub(super) fn to_row(self) -> [f64; 4] {
-        [self.stretch.x, self.stretch.y, self.stretch.z, self.radius]
-    }
-
     /// Forgets everything unless `touches`; no branch.
     #[inline(always)]
     pub(super) fn keep_if(&mut self, touches: bool) {
         let mask = u64::from(touches).wrapping_neg();
-        *self = Self::from_row(self.to_row().map(|x| f64::from_bits(x.to_bits() & mask)));
-    }
-
-    #[inline(always)]
-    pub(super) fn from_row([x, y, z, radius]: [f64; 4]) -> Self {
-        Self { stretch: Vector3::new(x, y, z), radius }
+        let kept = |x: f64| f64::from_bits(x.to_bits() & mask);
+        let Self { stretch, radius } = *self;
+        *self = Self {
+            stretch: Vector3::new(kept(stretch.x), kept(stretch.y), kept(stretch.z)),
+            radius: kept(radius),
+        };
     }
 }
 

@@ -5,6 +5,8 @@ use super::body::Ball;
 use super::frames::{Four, add_less};
 use super::law::Spring;
 use super::pairs::Setting;
+use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Spheres i of body a and j of body b.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,8 +60,9 @@ pub(super) struct Links {
 struct Touching {
     /// Place in the sequence.
     link: usize,
-    /// See [`Place`].
+    /// From a's centre of mass to the centre of its sphere, m.
     arm: Four,
+    /// From there to the centre of b's sphere, m.
     between: Four,
 }
 
@@ -104,11 +107,10 @@ impl Links {
             let (a, b) = (&setting.frames[link.a as usize], &setting.frames[link.b as usize]);
             let (ball_a, ball_b) = link.balls(setting);
             let arm = a.turn(&ball_a.center);
-            let mut between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
+            let between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
             let [x, y, z, _] = between;
             let reach = ball_a.radius + ball_b.radius;
             let touches = x * x + y * y + z * z < reach * reach;
-            between[3] = reach;
             self.touching[found] = Touching { link: k, arm, between };
             found += usize::from(touches);
             link.spring.keep_if(touches);
@@ -122,30 +124,36 @@ impl Links {
         self.found
     }
 
-    /// The bodies of the touching spheres number `k`.
+    /// Those of the touching spheres from `first` on that are of the same two bodies, and the bodies.
     #[inline(always)]
-    pub(super) fn bodies(&self, k: usize) -> (u32, u32) {
-        self.all[self.touching[k].link].bodies()
+    pub(super) fn meeting(&self, first: usize) -> (Range<usize>, (u32, u32)) {
+        let bodies = |touching: &Touching| self.all[touching.link].bodies();
+        let met = bodies(&self.touching[first]);
+        let count =
+            self.touching[first..self.found].iter().take_while(|touching| bodies(touching) == met).count();
+        (first..first + count, met)
     }
 
     /// Where the touching spheres number `k` are.
     #[inline(always)]
-    pub(super) fn place<'a>(&'a self, k: usize, setting: &Setting<'a>) -> Place<'a> {
-        let Touching { link, arm, between } = &self.touching[k];
-        let link = &self.all[*link];
+    pub(super) fn place(&self, k: usize, setting: &Setting<'_>) -> Place {
+        let Touching { link, arm: [ax, ay, az, _], between: [x, y, z, _] } = self.touching[k];
+        let link = &self.all[link];
         let (ball_a, ball_b) = link.balls(setting);
+        let between = Vector3::new(x, y, z);
         Place {
-            arm,
-            between,
+            arm: Vector3::new(ax, ay, az),
+            between: if between == Vector3::zeros() { Vector3::y() * f64::EPSILON } else { between },
+            reach: ball_a.radius + ball_b.radius,
             radius: ball_a.radius,
             curvature: ball_a.curvature + ball_b.curvature,
             sharpness: ball_a.curvature.max(ball_b.curvature),
-            spring: &link.spring,
+            spring: link.spring,
         }
     }
 
     /// Takes the new springs of the next contacts.
-    #[inline(always)]
+    #[inline]
     pub(super) fn keep(&mut self, springs: impl Iterator<Item = Spring>) {
         for spring in springs {
             self.all[self.touching[self.sprung].link].spring = spring;

@@ -14,7 +14,6 @@ mod frames;
 mod groups;
 #[cfg(test)]
 mod harvest;
-mod lanes;
 mod law;
 mod lease;
 mod links;

@@ -8,6 +8,7 @@
 //! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
+use super::batch::Place;
 use super::body::{Ball, BodyConstants, Eight, Outline};
 use super::extents::Extents;
 use super::frames::Frame;
@@ -60,8 +61,8 @@ impl Setting<'_> {
 
     /// Index of the law of two bodies.
     #[inline]
-    pub(super) fn law_of(&self, (a, b): (u32, u32)) -> usize {
-        self.law(self.bodies[a as usize].material, self.bodies[b as usize].material)
+    pub(super) fn law_of(&self, a: usize, b: usize) -> usize {
+        self.law(self.bodies[a].material, self.bodies[b].material)
     }
 
     /// Index of the law of two materials.
@@ -89,6 +90,7 @@ pub(super) struct Scratch {
     near: Candidates,
     /// A new list.
     spheres: Vec<(u16, u16)>,
+    pub places: Vec<Place>,
     /// Facets near a body.
     pub facets: Vec<u32>,
     /// Pairs to look at.
@@ -158,7 +160,8 @@ impl PairList {
         let between = apart.dot(&to_f32(&self.axis)) - of_a.most - of_b.most - slack;
         let allowance = (skin as f32).max(between);
         let depth = allowance - between;
-        of_b.foremost(depth.max(TIP * allowance), foremost);
+        // Bodies apart are followed where they are nearest.
+        of_b.foremost(depth.max(allowance), foremost);
         let about = ob.middle(foremost);
         let lever = of_b.lever(ob, &about, depth, allowance);
         self.listed = Lease {
@@ -171,11 +174,10 @@ impl PairList {
         if depth <= 0.0 {
             return;
         }
-        let skin = allowance;
         near.clear();
         for &j in &*foremost {
             let [x, y, z, radius] = ob.sphere(j);
-            near.push(j, apart + turn * Vector3::new(x, y, z), radius + skin + slack);
+            near.push(j, apart + turn * Vector3::new(x, y, z), radius + allowance + slack);
         }
         of_a.foremost(depth, foremost);
         near.list(oa, foremost, spheres);
@@ -274,8 +276,6 @@ fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, lease: &Lease) -> f64 {
     (speed * setting.dt * LENGTH * setting.skin).sqrt().clamp(least * setting.skin, most * setting.skin)
 }
 
-/// Bodies apart are followed where they are nearest, up to this share of their gap behind.
-const TIP: f32 = 1.0;
 /// Least and most skin, in common skins.
 const SKIN: (f64, f64) = (0.3, 5.0);
 /// A wide skin makes lists long, a narrow one makes them anew often: at skin s and relative speed v the one costs as

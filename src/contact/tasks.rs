@@ -4,16 +4,19 @@
 
 use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
-use super::frames::Frame;
 use super::groups::Group;
+use super::law::PairLaw;
 use super::links::Links;
 use super::pairs::{Scratch, Setting};
 use super::side::Side;
-use super::walls::{Boundary, Hold, WallList, WallWatch};
+use super::walls::{Boundary, WallList, WallWatch};
+use crate::scene::DampingMass;
 use crate::world::World;
 use nalgebra::Vector3;
-use pulp::{Simd, WithSimd};
 use std::cell::RefCell;
+
+/// Contacts that are worked out together at least: what they need stays in the nearest memory.
+const BATCH: usize = 64;
 
 /// What a thread works in: used by one task after another, so that it stays in the nearest memory.
 #[derive(Debug, Default)]
@@ -21,10 +24,6 @@ pub(super) struct Desk {
     scratch: Scratch,
     batch: Batch,
     links: Links,
-    /// Grips of a body that hold, and where.
-    grips: Vec<(usize, Hold)>,
-    /// List and number of the grips in the batch.
-    held: Vec<(usize, usize)>,
 }
 
 thread_local! {
@@ -55,16 +54,18 @@ pub(super) struct PairTask<'a> {
     pub group: &'a mut Group,
     pub desk: &'a mut Desk,
     pub setting: &'a Setting<'a>,
-    pub rule: Rule<'a>,
+    pub laws: &'a [PairLaw],
+    pub damping: DampingMass,
+    pub keep_contacts: bool,
 }
 
-impl WithSimd for PairTask<'_> {
+impl pulp::NullaryFnOnce for PairTask<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { setting, rule, .. } = self;
-        let Desk { scratch, batch, links, .. } = self.desk;
+    fn call(self) {
+        let Self { setting, .. } = self;
+        let Desk { scratch, batch, links } = self.desk;
         let Group { wakes, pairs, lists, links: kept, findings } = self.group;
         findings.clear();
         std::mem::swap(&mut links.all, kept);
@@ -83,43 +84,31 @@ impl WithSimd for PairTask<'_> {
         scratch.alert = alert;
         links.replaced();
         links.touch(setting);
-        let frames = |(a, b): (u32, u32)| (&setting.frames[a as usize], &setting.frames[b as usize]);
-        let sides = |(a, b): (u32, u32)| (setting.side(a as usize), setting.side(b as usize));
-        batch.clear();
-        for k in 0..links.touching() {
-            let bodies = links.bodies(k);
-            let law = setting.law_of(bodies);
-            if batch.is_full(bodies, law) {
-                work_out(simd, batch, &rule, frames, sides, findings);
-                links.keep(batch.springs());
+        let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
+        let sides = |a: u32, b: u32| (setting.side(a as usize), setting.side(b as usize));
+        let mut first = 0;
+        while first < links.touching() {
+            let (range, (a, b)) = links.meeting(first);
+            first = range.end;
+            let (side_a, side_b) = sides(a, b);
+            let law = setting.law_of(a as usize, b as usize);
+            let shared = batch.meet((a, b), 0, law, (&side_a, &side_b));
+            for k in range {
+                batch.take(&shared, &links.place(k, setting));
+            }
+            if batch.len() >= BATCH || first == links.touching() {
+                batch.work_out(self.laws, &rule, sides);
+                for (exchange, _, springs) in batch.outcome() {
+                    findings.touching.push(exchange);
+                    links.keep(springs);
+                }
+                if self.keep_contacts {
+                    findings.presses.extend(batch.presses(self.laws, setting.dt));
+                }
                 batch.clear();
             }
-            batch.take(bodies, law, &links.place(k, setting), frames(bodies));
         }
-        work_out(simd, batch, &rule, frames, sides, findings);
-        links.keep(batch.springs());
         std::mem::swap(&mut links.all, kept);
-    }
-}
-
-/// Works out the contacts of a batch and adds them to the findings.
-#[inline(always)]
-fn work_out<'a, S: Simd>(
-    simd: S,
-    batch: &mut Batch,
-    rule: &Rule<'_>,
-    frames: impl Fn((u32, u32)) -> (&'a Frame, &'a Frame),
-    sides: impl Fn((u32, u32)) -> (Side<'a>, Side<'a>),
-    findings: &mut Findings,
-) {
-    batch.work_out(simd, rule, sides);
-    let offset = |bodies| {
-        let (a, b) = frames(bodies);
-        a.offset(b)
-    };
-    findings.touching.extend(batch.exchanges(offset));
-    if rule.keep_contacts {
-        findings.presses.extend(batch.presses(simd, rule));
     }
 }
 
@@ -145,55 +134,42 @@ pub(super) struct WallTask<'a> {
     pub desk: &'a mut Desk,
     pub findings: &'a mut Findings,
     pub setting: &'a Setting<'a>,
-    pub rule: Rule<'a>,
+    pub laws: &'a [PairLaw],
+    pub damping: DampingMass,
+    pub keep_contacts: bool,
     pub boundaries: &'a [Boundary],
     pub world: &'a World,
 }
 
-impl WithSimd for WallTask<'_> {
+impl pulp::NullaryFnOnce for WallTask<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { watches, lists, setting, rule, boundaries, world, .. } = self;
-        let Desk { scratch, batch, grips, held, .. } = self.desk;
+    fn call(self) {
+        let Self { watches, lists, setting, boundaries, world, .. } = self;
+        let Desk { scratch, batch, .. } = self.desk;
         let findings = self.findings;
         findings.clear();
+        let rule = Rule { damping: self.damping, inside: 0.0, dt: setting.dt };
         let facets = |surface: &Boundary, min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
             world.facets_near(surface.mesh, min, max, out);
         };
-        let frames = |(body, surface): (u32, u32)| {
-            (&setting.frames[body as usize], &boundaries[surface as usize].frame)
-        };
-        let sides = |(body, surface): (u32, u32)| {
+        let sides = |body: u32, surface: u32| {
             (setting.side(body as usize), Side::surface(&boundaries[surface as usize].motion))
         };
-        batch.clear();
-        held.clear();
         for (k, watch) in watches.iter_mut().enumerate().filter(|(_, w)| w.alert(setting.odometers)) {
-            let bodies = (watch.body, watch.surface);
             let boundary = &boundaries[watch.surface as usize];
             lists[k].refresh(watch, setting, boundary, facets, &mut scratch.facets);
-            lists[k].look(watch, setting, boundary, grips);
-            let law = setting.law(setting.bodies[watch.body as usize].material, boundary.material);
-            if batch.is_full(bodies, law) {
-                work_out(simd, batch, &rule, frames, sides, findings);
-                keep(lists, held, batch);
-                batch.clear();
-            }
-            for (grip, hold) in grips.drain(..) {
-                batch.take(bodies, law, &hold.place(), frames(bodies));
-                held.push((k, grip));
-            }
+            lists[k].look(watch, k, setting, boundary, scratch, batch);
         }
-        work_out(simd, batch, &rule, frames, sides, findings);
-        keep(lists, held, batch);
-    }
-}
-
-/// Gives the springs of a batch back to the grips that `held` them: list and number.
-fn keep(lists: &mut [WallList], held: &mut Vec<(usize, usize)>, batch: &Batch) {
-    for ((list, grip), spring) in held.drain(..).zip(batch.springs()) {
-        lists[list].grips[grip].spring = spring;
+        batch.work_out(self.laws, &rule, sides);
+        for (exchange, list, springs) in batch.outcome() {
+            findings.touching.push(exchange);
+            lists[list].keep(springs);
+        }
+        if self.keep_contacts {
+            findings.presses.extend(batch.presses(self.laws, setting.dt));
+        }
+        batch.clear();
     }
 }

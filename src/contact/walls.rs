@@ -4,12 +4,12 @@
 //! while it moves from facet to facet. Where two patches meet in a convex edge, the place is felt once; a spring moves
 //! over to the patch that takes the sphere on. In a concave corner both patches push.
 
-use super::batch::Place;
+use super::batch::{Batch, Place};
 use super::body::{Ball, Outline};
-use super::frames::{Four, Frame};
 use super::law::Spring;
 use super::lease::Lease;
-use super::pairs::Setting;
+use super::pairs::{Scratch, Setting};
+use super::side::Side;
 use super::surface::{Nearest, Surface};
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
@@ -32,28 +32,14 @@ pub(super) struct Grip {
 pub(super) struct WallList {
     /// Sorted by (sphere, patch).
     pub grips: Vec<Grip>,
+    /// Which of them hold in this step.
+    held: Vec<u32>,
     facets: Vec<u32>,
     listed: Lease,
     /// Spheres and facets that were near when they were `sought`, sorted by (sphere, patch).
     candidates: Vec<(u16, u32)>,
     sought: Lease,
     mark: f64,
-}
-
-/// Where a sphere touches a patch.
-#[derive(Debug)]
-pub(super) struct Hold {
-    arm: Four,
-    between: Four,
-    curvature: f64,
-    spring: Spring,
-}
-
-impl Hold {
-    pub(super) fn place(&self) -> Place<'_> {
-        let Self { arm, between, curvature, spring } = self;
-        Place { arm, between, radius: between[3], curvature: *curvature, sharpness: *curvature, spring }
-    }
 }
 
 /// What is read of every body and surface in every step.
@@ -88,8 +74,6 @@ pub(super) struct Boundary {
     pub carrier: bool,
     /// Origin and axes of the surface in the world, its velocity there and its spin.
     pub motion: Motion,
-    /// The same once more.
-    pub frame: Frame,
 }
 
 /// Skin of the candidates, in skins.
@@ -101,6 +85,7 @@ impl WallList {
     pub(super) fn new() -> Self {
         Self {
             grips: Vec::new(),
+            held: Vec::new(),
             facets: Vec::new(),
             listed: Lease::NONE,
             candidates: Vec::new(),
@@ -211,14 +196,16 @@ impl WallList {
         self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
     }
 
-    /// Adds what touches to `held`: numbers of grips, and where they hold.
+    /// Hands what touches to `batch`, whose owner keeps this list at `list`.
     #[inline]
     pub(super) fn look(
         &mut self,
         watch: &mut WallWatch,
+        list: usize,
         setting: &Setting<'_>,
         boundary: &Boundary,
-        held: &mut Vec<(usize, Hold)>,
+        Scratch { places, .. }: &mut Scratch,
+        batch: &mut Batch,
     ) {
         if self.grips.is_empty() {
             watch.quiet = if boundary.carrier { self.mark } else { f64::NEG_INFINITY };
@@ -232,6 +219,8 @@ impl WallList {
         let surface = &boundary.motion;
         let offset = motion.position - surface.position;
         let travelled = setting.odometers[body];
+        places.clear();
+        self.held.clear();
         let mut first = 0;
         while first < self.grips.len() {
             let i = self.grips[first].sphere;
@@ -243,7 +232,7 @@ impl WallList {
             let sphere = &balls[i as usize];
             let arm = motion.rotation * sphere.center;
             let local = surface.rotation.tr_mul(&(offset + arm));
-            let start = held.len();
+            let start = places.len();
             for k in first..last {
                 let grip = &self.grips[k];
                 if travelled < grip.until {
@@ -258,17 +247,34 @@ impl WallList {
                 if overlap <= 0.0 || self.taken(&nearest, first..last, k, &local, boundary) {
                     continue;
                 }
-                let between = surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON);
-                let hold = Hold {
-                    arm: [arm.x, arm.y, arm.z, 0.0],
-                    between: [between.x, between.y, between.z, sphere.radius],
+                self.held.push(k as u32);
+                places.push(Place {
+                    arm,
+                    between: surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON),
+                    reach: sphere.radius,
+                    radius: sphere.radius,
                     curvature: sphere.curvature,
+                    sharpness: sphere.curvature,
                     spring: self.grips[k].spring,
-                };
-                held.push((k, hold));
+                });
             }
-            self.hand_over(first..last, &mut held[start..]);
+            self.hand_over(first..last, start, &mut places[start..]);
             first = last;
+        }
+        if !places.is_empty() {
+            let law = setting.law(constants.material, boundary.material);
+            let sides = (&setting.side(body), &Side::surface(surface));
+            let shared = batch.meet((watch.body, watch.surface), list, law, sides);
+            for place in &*places {
+                batch.take(&shared, place);
+            }
+        }
+    }
+
+    /// The springs of what touches, in the order of the places handed in.
+    pub(super) fn keep(&mut self, springs: impl Iterator<Item = Spring>) {
+        for (k, spring) in self.held.iter().zip(springs) {
+            self.grips[*k as usize].spring = spring;
         }
     }
 
@@ -296,20 +302,22 @@ impl WallList {
         })
     }
 
-    /// The spring of a patch that lets go of a sphere moves to a patch that takes it on in the same step.
-    fn hand_over(&mut self, grips: std::ops::Range<usize>, held: &mut [(usize, Hold)]) {
+    /// The spring of a patch that lets go of a sphere moves to a patch that takes it on in the same step; `places` are
+    /// those of the grips that hold from `start` on.
+    fn hand_over(&mut self, grips: std::ops::Range<usize>, start: usize, places: &mut [Place]) {
+        let held = &self.held[start..];
         let mut freed = None;
         for k in grips {
-            if self.grips[k].touching && held.iter().all(|(held, _)| *held != k) {
+            if self.grips[k].touching && !held.contains(&(k as u32)) {
                 self.grips[k].touching = false;
                 freed = Some(std::mem::take(&mut self.grips[k].spring));
             }
         }
-        for (k, hold) in held {
-            let grip = &mut self.grips[*k];
+        for (k, place) in held.iter().zip(places) {
+            let grip = &mut self.grips[*k as usize];
             if !grip.touching {
                 grip.touching = true;
-                hold.spring = freed.take().unwrap_or_default();
+                place.spring = freed.take().unwrap_or_default();
             }
         }
     }

@@ -54,8 +54,6 @@ pub struct NearChanges {
 struct Track {
     /// Pose that Rapier knows, seen from the carrier.
     known: Relative,
-    /// Its odometer then, m.
-    noted: f64,
     /// How far the tablet may move from there, m.
     margin: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
@@ -158,7 +156,6 @@ impl World {
         self.tablets.push((handle, collider));
         self.tracks.push(Track {
             known: Relative::NOWHERE,
-            noted: f64::NEG_INFINITY,
             margin: 0.0,
             reach: clump.reach(),
             bounding_radius: clump.bounding_radius(),
@@ -214,9 +211,6 @@ impl World {
         }
         for (k, (body, collider)) in self.tablets.iter().enumerate() {
             let (motion, track) = (&motions[k], &mut self.tracks[k]);
-            if self.odometers[k] - track.noted < tuning::EARLY * track.margin {
-                continue;
-            }
             let now = motion.seen_from(carrier);
             if track.within(&now, tuning::EARLY) {
                 continue;
@@ -231,7 +225,6 @@ impl World {
             let bounds = self.colliders[*collider].shape().compute_aabb(&pose).loosened(margin as f32);
             self.broad_phase.set_aabb(&self.parameters, *collider, bounds);
             track.known = now;
-            track.noted = self.odometers[k];
             track.margin = margin - tuning::ROUNDING;
             track.mark = self.odometers[k] + track.margin;
         }
