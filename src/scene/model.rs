@@ -197,6 +197,16 @@ pub enum ContactMode {
     },
 }
 
+impl ContactMode {
+    /// The key of a scene that sets the step.
+    pub(crate) fn step_key(self) -> &'static str {
+        match self {
+            ContactMode::HertzMindlin => "time.step",
+            ContactMode::Impulse { .. } => "the step of contact.mode: Impulse",
+        }
+    }
+}
+
 /// Tangential spring law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TangentialLaw {

@@ -80,9 +80,7 @@ pub enum SimulationError {
         contact: DeepestContact,
     },
     /// A body has left the drum, or everything.
-    #[error(
-        "body {body} has left the {place} at step {step}, {time:.6} s: lower time.step or raise the wall's shear modulus"
-    )]
+    #[error("body {body} has left the {place} at step {step}, {time:.6} s: lower {step_key}")]
     Lost {
         /// Index of the body.
         body: usize,
@@ -92,6 +90,8 @@ pub enum SimulationError {
         step: u64,
         /// Simulated time, s.
         time: f64,
+        /// What sets the step in the scene.
+        step_key: &'static str,
     },
     /// The caller asked to stop.
     #[error("stopped on request at {time:.3} s")]

@@ -61,7 +61,8 @@ impl Simulation {
                 _ if p.norm() > FARTHEST => "100 m about the origin",
                 _ => continue,
             };
-            return Err(SimulationError::Lost { body, place, step, time });
+            let step_key = self.scene.contact.mode.step_key();
+            return Err(SimulationError::Lost { body, place, step, time, step_key });
         }
         self.note_good();
         Ok(())

@@ -63,6 +63,20 @@ fn friction_stops_a_sliding_tablet() {
     assert!((position.x / expected - 1.0).abs() < 0.05, "{} for {expected}", position.x);
 }
 
+#[test]
+fn a_stop_names_the_step_of_this_mode() {
+    let text = r#"(format: 1,
+        materials: {"m": (shear_modulus: MPa(1), poisson: 0.25)},
+        pairs: [(between: ("m", "m"), friction: 0.3, restitution: 0.1)],
+        shapes: {"ball": (recipe: Sphere(diameter: Mm(10)))},
+        bodies: [(shape: "ball", material: "m", mass: G(1), position: Mm(99990, 0, 0), velocity: MPerS(2, 0, 0))],
+        contact: (mode: Impulse(step: Ms(1))),
+        time: (duration: Ms(10), frame_interval: Ms(10)))"#;
+    let mut simulation = Simulation::new(&scene(text)).expect("is built");
+    let error = simulation.run(0, 1, &mut [], &mut |_| true).expect_err("ends beyond 100 m");
+    assert!(error.to_string().ends_with("lower the step of contact.mode: Impulse"), "{error}");
+}
+
 /// The states of 20 tablets after two seconds in a small drum.
 fn bed(more: &[&str]) -> Vec<BodyState> {
     let overrides = [
