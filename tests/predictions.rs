@@ -52,6 +52,32 @@ fn a_run_predicts_its_limit_its_times_and_how_many_to_measure() {
 }
 
 #[test]
+fn beds_are_taken_together() {
+    let folder = tempfile::tempdir().expect("can be made");
+    let other = folder.path().join("other");
+    pancoat().args(arguments(&other, "4")).args(["--set", "seed=2"]).assert().success();
+    let text = stdout(pancoat().arg("predict").args([&RUN.1, &other]));
+    let limit = |part: &str| {
+        let line = part.lines().find(|line| line.contains("limit of CoV_intra")).expect("has a limit");
+        let numbers =
+            line.split(|c: char| !c.is_ascii_digit() && c != '.').filter_map(|word| word.parse::<f64>().ok());
+        numbers.collect::<Vec<_>>()
+    };
+    let (each, together) = text.split_once("all 2 beds").expect("takes them together");
+    let (first, second) = each.rsplit_once("limit of CoV_intra").expect("has two beds");
+    let (first, second) = (limit(first)[0], limit(&format!("limit of CoV_intra{second}"))[0]);
+    let [value, low, high] = limit(together)[..] else { panic!("no interval in {together}") };
+    assert!((value - 0.5 * (first + second)).abs() < 1e-4, "{text}");
+    // Student's t of two values: 12.706 times half their distance.
+    let half = 6.353 * (first - second).abs();
+    assert!((high - value - half).abs() < 2e-3 && (low - (value - half).max(0.0)).abs() < 2e-3, "{text}");
+
+    let same = pancoat().arg("predict").args([&RUN.1, &RUN.1]).assert().code(2);
+    let error = String::from_utf8_lossy(&same.get_output().stderr).into_owned();
+    assert!(error.contains("the same run") && error.contains("--set seed=2"), "{error}");
+}
+
+#[test]
 fn a_run_predicts_while_it_runs() {
     let folder = tempfile::tempdir().expect("can be made");
     let out = folder.path().join("almond");

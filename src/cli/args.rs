@@ -161,9 +161,9 @@ pub(super) struct ReportArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct PredictArgs {
-    /// Folder of a run
-    #[arg(value_name = "DIR")]
-    pub(super) directory: PathBuf,
+    /// Folder of a run; several, of beds that differ in their seed only, are taken together as well
+    #[arg(value_name = "DIR", required = true)]
+    pub(super) directories: Vec<PathBuf>,
     /// CoV to reach
     #[arg(long, value_name = "COV", default_value = "0.1", value_parser = share)]
     pub(super) target: f64,

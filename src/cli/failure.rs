@@ -21,6 +21,8 @@ pub(super) enum Failure {
     Scene(#[from] SceneFaults),
     #[error("{}: nothing is coated yet; the scene needs a spray and its run an output time", .0.display())]
     NothingCoated(PathBuf),
+    #[error("{} and {} hold the same run: beds to take together differ in their seed, as by --set seed=2", .0[0].display(), .0[1].display())]
+    SameRun([PathBuf; 2]),
     #[error("{}: {source}", path.display())]
     Scan { path: PathBuf, source: ThzError },
     #[error("cannot write {}: {source}", path.display())]
@@ -79,6 +81,7 @@ impl Failure {
             | Self::Interval { .. }
             | Self::Coater(_)
             | Self::NothingCoated(_)
+            | Self::SameRun(_)
             | Self::NewScene { .. }
             | Self::Scan { .. }
             | Self::Refused(_)

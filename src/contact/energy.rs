@@ -71,10 +71,9 @@ impl ContactField {
             press,
             law: &self.laws[press.law],
         };
-        let touching =
-            |group: &'a Group| group.links.iter().filter(|link| link.touched()).zip(&group.findings.presses);
-        let pairs = self.groups.iter().flat_map(touching).map(move |(link, press)| {
-            state(press, link.a, Partner::Body(link.b as usize), (link.i.into(), link.j.into()))
+        let touching = |group: &'a Group| group.links.touching().zip(&group.findings.presses);
+        let pairs = self.groups.iter().flat_map(touching).map(move |((link, _), press)| {
+            state(press, link.a, Partner::Body(link.b as usize), self.spheres(link))
         });
         let grips = self.wall_watches.iter().zip(&self.walls).flat_map(|(watch, list)| {
             list.grips.iter().filter(|grip| grip.touching).map(move |grip| (watch, grip))

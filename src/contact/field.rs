@@ -4,6 +4,7 @@ use super::body::{Ball, BodyConstants, Outline};
 use super::frames::Frame;
 use super::groups::{self, Group};
 use super::law::PairLaw;
+use super::links::Link;
 use super::pairs::Setting;
 use super::surface::Surface;
 use super::tasks::{DESK, Findings, PairTask, WallTask};
@@ -261,10 +262,18 @@ impl ContactField {
         self.surface_torques[surface]
     }
 
+    /// The numbers of the spheres of a link in their bodies.
+    pub(super) fn spheres(&self, link: &Link) -> (u32, u32) {
+        let first = |body: u32| self.outlines[self.bodies[body as usize].shape].first;
+        (link.balls.0 - first(link.a), link.balls.1 - first(link.b))
+    }
+
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let links = self.groups.iter().flat_map(|group| &group.links).filter(|link| link.touched());
-        let pairs = links.map(|link| (link.a, link.b, link.i.into(), link.j.into(), link.spring.stretch));
+        let pairs = self.groups.iter().flat_map(|group| group.links.touching()).map(|(link, spring)| {
+            let (i, j) = self.spheres(link);
+            (link.a, link.b, i, j, spring.stretch)
+        });
         let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
             let touching = list.grips.iter().filter(|g| g.touching);
             touching.map(|g| (w.body, w.surface, u32::from(g.sphere), g.patch, g.spring.stretch))

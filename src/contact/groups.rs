@@ -1,6 +1,6 @@
 //! Near pairs in groups: what one task works on lies together, and a search changes few of them.
 
-use super::links::Link;
+use super::links::Links;
 use super::pairs::{Pair, PairList};
 use super::tasks::Findings;
 
@@ -18,7 +18,7 @@ pub(super) struct Group {
     /// The lists of `pairs`, in the same order.
     pub lists: Vec<PairList>,
     /// Spheres of the pairs that may touch, in order.
-    pub links: Vec<Link>,
+    pub links: Links,
     pub findings: Findings,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
             keep(&mut group.wakes, &staying);
             keep(&mut group.pairs, &staying);
             keep(&mut group.lists, &staying);
-            group.links.retain(|link| stays(link.bodies()));
+            group.links.retain(stays);
         }
     }
     for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {

@@ -46,20 +46,6 @@ pub struct Spring {
     pub radius: f64,
 }
 
-impl Spring {
-    /// Forgets everything unless `touches`; no branch.
-    #[inline(always)]
-    pub(super) fn keep_if(&mut self, touches: bool) {
-        let mask = u64::from(touches).wrapping_neg();
-        let kept = |x: f64| f64::from_bits(x.to_bits() & mask);
-        let Self { stretch, radius } = *self;
-        *self = Self {
-            stretch: Vector3::new(kept(stretch.x), kept(stretch.y), kept(stretch.z)),
-            radius: kept(radius),
-        };
-    }
-}
-
 /// One contact at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {

@@ -13,7 +13,7 @@ use super::body::{Ball, BodyConstants, Eight, Outline};
 use super::extents::Extents;
 use super::frames::Frame;
 use super::lease::Lease;
-use super::links::Links;
+use super::links::LinkDesk;
 use super::side::Side;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
@@ -29,7 +29,7 @@ pub(super) struct Pair {
     mark: f64,
 }
 
-/// The lease of a pair's list; what it lists are [`Links`].
+/// The lease of a pair's list; what it lists are links.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PairList {
     listed: Lease,
@@ -126,7 +126,7 @@ impl PairList {
         pair: &mut Pair,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
-        links: &mut Links,
+        links: &mut LinkDesk,
     ) -> (f64, bool) {
         let (a, b) = (pair.a as usize, pair.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);

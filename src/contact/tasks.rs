@@ -6,7 +6,7 @@ use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
 use super::groups::Group;
 use super::law::PairLaw;
-use super::links::Links;
+use super::links::LinkDesk;
 use super::pairs::{Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
@@ -23,7 +23,7 @@ const BATCH: usize = 64;
 pub(super) struct Desk {
     scratch: Scratch,
     batch: Batch,
-    links: Links,
+    links: LinkDesk,
 }
 
 thread_local! {
@@ -68,7 +68,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
         let Desk { scratch, batch, links } = self.desk;
         let Group { wakes, pairs, lists, links: kept, findings } = self.group;
         findings.clear();
-        std::mem::swap(&mut links.all, kept);
+        std::mem::swap(&mut links.links, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
         let count = find(&mut alert, wakes, setting.pace);
         for &k in &alert[..count] {
@@ -108,7 +108,8 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
                 batch.clear();
             }
         }
-        std::mem::swap(&mut links.all, kept);
+        links.kept();
+        std::mem::swap(&mut links.links, kept);
     }
 }
 

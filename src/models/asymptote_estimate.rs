@@ -1,5 +1,6 @@
 //! The limit of intra-tablet uniformity, estimated from a run too short to reach it.
 
+use super::student::student_95;
 use super::{Amount, Asymptote, CoatMap, Interval, ModelError};
 use rayon::prelude::*;
 
@@ -104,25 +105,13 @@ fn half_width(derivatives: &[f64], blocks: usize) -> f64 {
     let by_block: f64 = (0..blocks).map(|b| square(derivatives.iter().skip(b).step_by(blocks).sum())).sum();
     let by_cell: f64 = derivatives.iter().map(|g| g * g).sum();
     let freedom = |units: usize| (units as f64 - 1.0).max(1.0);
-    // What all tablets of a block share, beyond what the blocks' single gains explain.
-    let shared = if blocks >= ENOUGH_BLOCKS {
-        (by_block * blocks as f64 / freedom(blocks) - by_cell).max(0.0)
-    } else {
-        0.0
-    };
-    let variance = by_tablet + shared;
+    let by_block = if blocks >= ENOUGH_BLOCKS { by_block * blocks as f64 / freedom(blocks) } else { 0.0 };
+    // What all tablets of a block share comes to what blocks have beyond their single gains. It may come out too small by
+    // chance, which is why the freedom is that of all that blocks have.
+    let variance = by_tablet + (by_block - by_cell).max(0.0);
     let degrees =
-        variance * variance / (by_tablet.powi(2) / freedom(tablets) + shared.powi(2) / freedom(blocks));
+        variance * variance / (by_tablet.powi(2) / freedom(tablets) + by_block.powi(2) / freedom(blocks));
     student_95(degrees) * variance.sqrt()
-}
-
-/// Two-sided 95 % point of Student's t (Abramowitz and Stegun 1964, 26.7.5); within 2 % from four degrees of freedom on.
-pub(super) fn student_95(degrees: f64) -> f64 {
-    let z = 1.959_963_984_540_054_f64;
-    let first = (z.powi(3) + z) / 4.0;
-    let second = (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0;
-    let third = (3.0 * z.powi(7) + 19.0 * z.powi(5) + 17.0 * z.powi(3) - 15.0 * z) / 384.0;
-    z + first / degrees + second / degrees.powi(2) + third / degrees.powi(3)
 }
 
 /// What one tablet gained in one block: its mean, and the products ⟨d_ib, ·⟩ that the estimate is made of.
@@ -223,13 +212,6 @@ fn deviation(counts: &[f64], areas: &[f64]) -> (Vec<f64>, f64) {
 mod tests {
     use super::super::{BatchStatistics, TrialProcess};
     use super::*;
-
-    #[test]
-    fn students_t() {
-        for (degrees, t) in [(4.0, 2.776), (9.0, 2.262), (30.0, 2.042), (1e6, 1.960)] {
-            assert!((student_95(degrees) / t - 1.0).abs() < 0.005, "{degrees}: {}", student_95(degrees));
-        }
-    }
 
     #[test]
     fn one_block_is_the_corrected_average_tablet() {

@@ -3,7 +3,7 @@
 //! A bed is chaotic, so that only statistics can be compared: each case runs with several seeds, and its figures are known
 //! to a confidence interval. A difference within the intervals is no error that anyone could see.
 
-use super::asymptote_estimate::student_95;
+use super::student::mean_95;
 
 /// One run of a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,25 +69,12 @@ pub fn work_precision(cases: &[Vec<Run>], reference: usize) -> Vec<Option<Precis
 
 /// Mean of each figure and half the width of its 95 % interval.
 fn intervals(runs: &[Run]) -> Option<Vec<(f64, f64)>> {
-    let n = runs.len() as f64;
     let figures = 0..runs.first()?.figures.len();
     let interval = |k: usize| {
-        let mean = runs.iter().map(|run| run.figures[k]).sum::<f64>() / n;
-        let variance = runs.iter().map(|run| (run.figures[k] - mean).powi(2)).sum::<f64>() / (n - 1.0);
-        (mean, student(n - 1.0) * (variance / n).sqrt())
+        let values: Vec<f64> = runs.iter().map(|run| run.figures[k]).collect();
+        mean_95(&values).unwrap_or((values[0], f64::NAN))
     };
     Some(figures.map(interval).collect())
-}
-
-/// Two-sided 95 % point of Student's t, exact below four degrees of freedom.
-fn student(degrees: f64) -> f64 {
-    match degrees as usize {
-        0 => f64::NAN,
-        1 => 12.706,
-        2 => 4.303,
-        3 => 3.182,
-        _ => student_95(degrees),
-    }
 }
 
 #[cfg(test)]

@@ -90,9 +90,12 @@ fn the_interval_covers_the_truth_and_the_estimate_has_no_bias() {
 #[test]
 fn blocks_tell_a_shared_fluctuation_from_a_limit() {
     let run = MadeUpRun::new(0.2, 0.35);
-    let (covered, ratio) = coverage(&run, 8, 4);
-    assert!(covered >= 0.9, "covered {covered}");
-    assert!((ratio - 1.0).abs() < 0.02, "bias {ratio}");
+    // A small share can come out as none by chance.
+    for (run, blocks) in [(&run, 8), (&MadeUpRun::new(0.2, 0.15), 5), (&MadeUpRun::new(0.2, 0.1), 5)] {
+        let (covered, ratio) = coverage(run, blocks, 4);
+        assert!(covered >= 0.93, "{blocks} blocks: covered {covered}");
+        assert!((ratio - 1.0).abs() < 0.02, "{blocks} blocks: bias {ratio}");
+    }
     let (mut one_block, mut average) = (0.0, 0.0);
     for seed in 0..40 {
         let gains = run.play(8, 4, seed);
