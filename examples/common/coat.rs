@@ -29,7 +29,7 @@ pub(crate) fn coat(scene: &str) -> Result<(), Box<dyn Error>> {
     println!("{} tablets settled in {settled:.1} s", simulation.body_shapes().len());
 
     let mut positions = Positions(Vec::new());
-    simulation.run(0, frames(0.5), &mut [&mut positions], &mut |_| true)?;
+    simulation.run(0, frames(2.0), &mut [&mut positions], &mut |_| true)?;
     let radius = (simulation.shapes()[0].volume * 3.0 / (4.0 * PI)).cbrt(); // of a ball of the tablet's volume
     let bed = BedSurface::fit(&positions.0, radius)?;
     println!("angle of repose {:.1} degrees", bed.angle_of_repose_deg());

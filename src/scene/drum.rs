@@ -51,6 +51,12 @@ impl Drum {
         }
     }
 
+    /// Time from one baffle's passage to the next one's, s; `None` without baffles or at rest.
+    pub fn baffle_passage(&self) -> Option<f64> {
+        let baffles = self.baffles.as_ref().filter(|_| self.speed != 0.0)?;
+        Some(std::f64::consts::TAU / (self.speed.abs() * baffles.count as f64))
+    }
+
     /// Inner radius at a place along the axis, m.
     pub fn radius_at(&self, z: f64) -> f64 {
         let profile = self.profile();

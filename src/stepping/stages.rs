@@ -6,7 +6,7 @@ use super::frame::{BodyState, Frame, Observer};
 use super::settling::SettlingWatch;
 use super::simulation::Simulation;
 use super::stopwatch::Phase;
-use crate::scene::Settle;
+use crate::scene::{Drum, Settle};
 use crate::shapes::ClearRoom;
 use nalgebra::Vector3;
 
@@ -107,12 +107,7 @@ impl Simulation {
             Settle::Auto { at_most } => (at_most, true),
             Settle::For(time) => (time, false),
         };
-        let window = match &self.scene.drum {
-            Some(d) if d.speed != 0.0 && d.baffles.is_some() => {
-                std::f64::consts::TAU / (d.speed.abs() * d.baffles.map_or(1.0, |b| b.count as f64))
-            }
-            _ => WINDOW,
-        };
+        let window = self.scene.drum.as_ref().and_then(Drum::baffle_passage).unwrap_or(WINDOW);
         let start = self.clock();
         let mut settling = SettlingWatch::default();
         let mut window_end = window;
