@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 /// Least and most time over which the bed's surface is taken for aiming, s. Its slope wavers: half a second of the paper's bed
-/// gives it with a standard deviation of 1 degree, two seconds with 0.45, and a degree moves the limit by 3 %.
+/// gives it with a standard deviation of 1 degree, two seconds with 0.45, and a degree moves the limit by 2 to 3 %.
 const AIMING: (f64, f64) = (2.0, 10.0);
 /// Length of the blocks that standard errors come from, s: about a passage down the surface.
 const BLOCK: f64 = 1.0;
