@@ -38,14 +38,16 @@ impl Observer for Positions {
     }
 }
 
-/// Time over which the bed's surface is taken for aiming, s: whole passages of the baffles, with which the bed rises and falls.
-pub(super) fn aiming_time(scene: &Scene) -> f64 {
+/// Frames over which the bed's surface is taken for aiming: whole passages of the baffles, with which the bed rises and falls,
+/// unless one alone takes too long.
+pub(super) fn aiming_frames(scene: &Scene) -> u64 {
     let passage = scene.drum.as_ref().and_then(Drum::baffle_passage);
     let (least, most) = AIMING;
-    passage.map_or(least, |passage| passage * (least / passage).ceil()).min(most)
+    let time = passage.map_or(least, |passage| passage * (least / passage).ceil()).min(most);
+    (time / scene.time.frame_interval).ceil() as u64
 }
 
-/// The zone that a spray covers. Aiming at the bed takes two seconds of its motion.
+/// The zone that a spray covers. Aiming at the bed takes [`aiming_frames`] of its motion.
 pub(super) fn aim(
     simulation: &mut Simulation,
     spray: &Spray,
@@ -54,10 +56,9 @@ pub(super) fn aim(
     match spray.aim {
         Aim::Fixed { target, normal } => Ok(SprayZone::facing(target, normal, spray)),
         Aim::Bed => {
-            let time = aiming_time(simulation.scene());
-            let frames = (time / simulation.scene().time.frame_interval).ceil() as u64;
+            let frames = aiming_frames(simulation.scene());
             let mut positions = Positions(Vec::new());
-            watch.begin("aiming", time);
+            watch.begin("aiming", frames as f64 * simulation.scene().time.frame_interval);
             simulation.run(0, frames, &mut [&mut positions], &mut |progress| watch.note(progress))?;
             Ok(surface(&positions.0, simulation.shapes(), simulation.body_shapes())?.zone(spray))
         }

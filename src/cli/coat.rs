@@ -1,7 +1,7 @@
 //! `pancoat coat`: sprays stored poses without simulating.
 
 use super::args::CoatArgs;
-use super::bed::{CoatedBed, aiming_time, surface};
+use super::bed::{CoatedBed, aiming_frames, surface};
 use super::coating::Coating;
 use super::failure::Failure;
 use super::print_line;
@@ -132,12 +132,11 @@ impl Poses {
             }
             Err(other) => return Err(other.into()),
         };
-        poses.with_first(path, scene.time.frame_interval, aiming_time(scene))
+        poses.with_first(path, scene.time.frame_interval, aiming_frames(scene) as usize)
     }
 
     /// Looks at the frames of the first moments, and at the time between them.
-    fn with_first(mut self, path: &Path, interval: f64, aiming: f64) -> Result<Self, Failure> {
-        let moments = (aiming / interval).ceil() as usize;
+    fn with_first(mut self, path: &Path, interval: f64, moments: usize) -> Result<Self, Failure> {
         self.first = self.stored.by_ref().take(moments.max(2)).collect::<Result<_, _>>()?;
         if self.first.is_empty() {
             return Err(Failure::OtherPoses { path: path.to_owned(), what: "no whole frame" });

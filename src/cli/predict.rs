@@ -3,33 +3,28 @@
 use super::args::PredictArgs;
 use super::failure::Failure;
 use super::print_line;
-use crate::models::{Asymptote, mean_95, sample_sd, tablets_to_measure};
+use crate::models::{Asymptote, SeriesRow, mean_95, sample_sd, tablets_to_measure};
 use crate::report::{Limit, ReportData, ShapeCoating};
-use std::path::Path;
 
 pub(super) fn predict(args: &PredictArgs) -> Result<(), Failure> {
-    let mut runs: Vec<(&Path, ReportData)> = Vec::new();
+    let mut runs: Vec<(ReportData, SeriesRow)> = Vec::new();
     for directory in &args.directories {
         let data = ReportData::read(directory)?;
-        if data.series.is_empty() {
+        let Some(&last) = data.series.last() else {
             return Err(Failure::NothingCoated(directory.clone()));
+        };
+        if let Some(same) = runs.iter().position(|(other, _)| other.series == data.series) {
+            return Err(Failure::SameRun([args.directories[same].clone(), directory.clone()]));
         }
-        if let Some((same, _)) = runs.iter().find(|(_, other)| other.series == data.series) {
-            return Err(Failure::SameRun([same.to_path_buf(), directory.clone()]));
-        }
-        runs.push((directory, data));
+        runs.push((data, last));
     }
-    for (_, data) in &runs {
-        one_bed(data, args)?;
+    for (data, last) in &runs {
+        one_bed(data, last, args)?;
     }
-    if runs.len() > 1 {
-        all_beds(&runs.iter().map(|(_, data)| data).collect::<Vec<_>>(), args)?;
-    }
-    Ok(())
+    if runs.len() > 1 { all_beds(&runs, args.target) } else { Ok(()) }
 }
 
-fn one_bed(data: &ReportData, args: &PredictArgs) -> Result<(), Failure> {
-    let Some(last) = data.series.last() else { return Ok(()) };
+fn one_bed(data: &ReportData, last: &SeriesRow, args: &PredictArgs) -> Result<(), Failure> {
     print_line(&format!("{}, after {} of spray", data.title, time(last.time_s)))?;
     for (number, shape) in data.shapes.iter().enumerate() {
         let mut lines = Vec::new();
@@ -58,31 +53,30 @@ fn one_bed(data: &ReportData, args: &PredictArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What several beds of one kind say together: their own scatter tells how sure the limit is.
-fn all_beds(runs: &[&ReportData], args: &PredictArgs) -> Result<(), Failure> {
+/// What several beds of one kind say together.
+fn all_beds(runs: &[(ReportData, SeriesRow)], target: f64) -> Result<(), Failure> {
     print_line(&format!("all {} beds", runs.len()))?;
-    for shape in &runs[0].shapes {
-        let of_run = |run: &&ReportData| run.shapes.iter().find(|s| s.name == shape.name)?.limit;
+    for shape in &runs[0].0.shapes {
+        let of_run =
+            |(run, _): &(ReportData, SeriesRow)| run.shapes.iter().find(|s| s.name == shape.name)?.limit;
         let limits: Option<Vec<Limit>> = runs.iter().map(of_run).collect();
-        let values = |of: fn(&Limit) -> f64| limits.iter().flatten().map(of).collect::<Vec<_>>();
-        let covs = values(|limit| limit.value);
-        let lines = match (mean_95(&covs), sample_sd(&covs)) {
-            (Some((value, half)), Some(sd)) => {
-                let noise: Option<f64> = limits.iter().flatten().map(|limit| limit.noise_time_s).sum();
-                let noise_time_s = noise.map(|sum| sum / runs.len() as f64);
-                let limit = Limit { value, low: (value - half).max(0.0), high: value + half, noise_time_s };
-                let mut lines = approach(&limit, args.target);
-                lines.push((
-                    "one bed lies off by",
-                    format!("{:.1} % (standard deviation)", 100.0 * sd / value),
-                ));
-                lines
-            }
-            _ => vec![("limit of CoV_intra", "not known of all beds".to_owned())],
-        };
-        print(&shape.name, &lines)?;
+        let lines = limits.and_then(|limits| together(&limits, target));
+        let unknown = || vec![("limit of CoV_intra", "not known of all beds".to_owned())];
+        print(&shape.name, &lines.unwrap_or_else(unknown))?;
     }
     Ok(())
+}
+
+/// The limit of several beds: their own scatter tells how sure it is.
+fn together(limits: &[Limit], target: f64) -> Option<Vec<Line>> {
+    let covs: Vec<f64> = limits.iter().map(|limit| limit.value).collect();
+    let ((value, half), sd) = (mean_95(&covs)?, sample_sd(&covs)?);
+    let noise: Option<f64> = limits.iter().map(|limit| limit.noise_time_s).sum();
+    let noise_time_s = noise.map(|sum| sum / limits.len() as f64);
+    let limit = Limit { value, low: (value - half).max(0.0), high: value + half, noise_time_s };
+    let mut lines = approach(&limit, target);
+    lines.push(("one bed lies off by", format!("{:.1} % (standard deviation)", 100.0 * sd / value)));
+    Some(lines)
 }
 
 fn print(shape: &str, lines: &[Line]) -> Result<(), Failure> {

@@ -74,8 +74,8 @@ pub(super) struct LinkDesk {
     touching: Vec<Touching>,
     /// How many touch.
     found: usize,
-    /// The new springs.
-    springs: Vec<Spring>,
+    /// The springs of the step before.
+    former: Vec<Spring>,
 }
 
 /// Two spheres that touch.
@@ -122,7 +122,7 @@ impl LinkDesk {
     }
 
     /// Finds what touches. No branch depends on the outcome: none could be foreseen. [`LinkDesk::keep`] must follow for
-    /// all that touch, then [`LinkDesk::kept`].
+    /// all that touch.
     #[inline(always)]
     pub(super) fn touch(&mut self, setting: &Setting<'_>) {
         let links = &mut self.links.all;
@@ -143,8 +143,9 @@ impl LinkDesk {
             link.spring = found as u32 * u32::from(touches);
         }
         self.found = found;
-        self.springs.clear();
-        self.springs.push(Spring::default());
+        std::mem::swap(&mut self.links.springs, &mut self.former);
+        self.links.springs.clear();
+        self.links.springs.push(Spring::default());
     }
 
     /// Number of spheres that touch.
@@ -175,18 +176,13 @@ impl LinkDesk {
             radius: ball_a.radius,
             curvature: ball_a.curvature + ball_b.curvature,
             sharpness: ball_a.curvature.max(ball_b.curvature),
-            spring: self.links.springs[spring as usize],
+            spring: self.former[spring as usize],
         }
     }
 
     /// Takes the new springs of the next contacts.
     #[inline]
     pub(super) fn keep(&mut self, springs: impl Iterator<Item = Spring>) {
-        self.springs.extend(springs);
-    }
-
-    /// Ends the keeping.
-    pub(super) fn kept(&mut self) {
-        std::mem::swap(&mut self.links.springs, &mut self.springs);
+        self.links.springs.extend(springs);
     }
 }

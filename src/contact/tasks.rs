@@ -108,7 +108,6 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
                 batch.clear();
             }
         }
-        links.kept();
         std::mem::swap(&mut links.links, kept);
     }
 }
