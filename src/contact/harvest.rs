@@ -118,7 +118,10 @@ proptest! {
                 motion.position += step * share;
                 motion.rotation = UnitQuaternion::new(turn * share).to_rotation_matrix().into_inner() * motion.rotation;
             }
-            world.travel(&shares.map(|share| ((step * share).norm(), (turn * share).norm())));
+            let paths = kinds.iter().zip(shares).map(|(kind, share)| {
+                (step * share).norm() + (turn * share).norm() * shapes[*kind].clump.reach()
+            });
+            world.travel(&paths.collect::<Vec<_>>());
             if world.must_search(&motions, &rest) {
                 let near = world.search(&motions, &[rest], &rest);
                 field.change_near(&near.parted, &near.met);

@@ -2,6 +2,7 @@
 //!
 //! Angular momentum L is kept in space axes, so that it is conserved exactly between contacts.
 
+use crate::contact::Wrench;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// One body.
@@ -17,18 +18,18 @@ pub(super) struct Body {
     pub velocity: Vector3<f64>,
     /// Angular momentum about the centre of mass, world axes, likewise, kg m²/s.
     pub momentum: Vector3<f64>,
-    /// Force at the last force evaluation, gravity included, N.
-    pub force: Vector3<f64>,
-    /// Torque at the last force evaluation, N m.
-    pub torque: Vector3<f64>,
+    /// Largest distance of a sphere's centre from the centre of mass, m.
+    pub reach: f64,
+    /// Farthest that any sphere's centre may move in a step, m.
+    pub most_travel: f64,
 }
 
 impl Body {
     /// Second half of a step's kick (also the first half of the next one).
     #[inline]
-    pub(super) fn kick(&mut self, half_step: f64) {
-        self.velocity += self.force * (half_step / self.mass);
-        self.momentum += self.torque * half_step;
+    pub(super) fn kick(&mut self, wrench: &Wrench, half_step: f64) {
+        self.velocity += wrench.force * (half_step / self.mass);
+        self.momentum += wrench.torque * half_step;
     }
 
     /// Angular velocity, world axes, rad/s, of momentum `momentum` at `rotation`.

@@ -6,6 +6,7 @@
 //! multiplication) is Ω = ω t + ω̇ t²/2 + ω̈ t³/6 + (ω × ω̇) t³/12 + O(t⁴).
 
 use super::body::Body;
+use crate::contact::Wrench;
 use crate::world::Motion;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
@@ -17,8 +18,10 @@ type Lanes3 = [Lanes; 3];
 pub(super) struct Drift<'a> {
     pub bodies: &'a mut [Body],
     pub motions: &'a mut [Motion],
-    /// How far each moves, m, and turns, rad, against the carrier.
-    pub paths: &'a mut [(f64, f64)],
+    /// Forces and torques of the last force evaluation.
+    pub wrenches: &'a [Wrench],
+    /// How far each body's farthest sphere centre goes against the carrier, m.
+    pub paths: &'a mut [f64],
     /// Angular velocity of the carrier, rad/s.
     pub carrier: Vector3<f64>,
     /// Step, s.
@@ -34,6 +37,8 @@ struct Eight {
     position: Lanes3,
     velocity: Lanes3,
     momentum: Lanes3,
+    reach: Lanes,
+    most_travel: Lanes,
     force: Lanes3,
     torque: Lanes3,
     /// Columns of the rotation matrix.
@@ -47,7 +52,9 @@ struct Eight {
     /// At the end of the step, as far as known before its forces.
     next_velocity: Lanes3,
     next_spin: Lanes3,
-    path: [Lanes; 2],
+    path: Lanes,
+    /// 1 for a body that will go too far in the next step or is nowhere, else 0.
+    astray: Lanes,
 }
 
 #[inline(always)]
@@ -71,33 +78,38 @@ fn set_four(lanes: &mut [Lanes; 4], k: usize, q: (f64, f64, f64, f64)) {
 }
 
 impl pulp::NullaryFnOnce for Drift<'_> {
-    type Output = ();
+    /// Whether a body goes astray: moves farther in a step than it may, or is nowhere.
+    type Output = bool;
 
     #[inline(always)]
-    fn call(self) {
-        let Self { bodies, motions, paths, carrier, dt } = self;
-        let eights = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES)).zip(paths.chunks_mut(LANES));
+    fn call(self) -> bool {
+        let Self { bodies, motions, wrenches, paths, carrier, dt } = self;
+        let bodies = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES));
+        let eights = bodies.zip(wrenches.chunks(LANES)).zip(paths.chunks_mut(LANES));
         let mut eight = Eight::default();
-        for ((bodies, motions), paths) in eights {
-            eight.read(bodies, motions);
+        let mut astray = 0.0;
+        for (((bodies, motions), wrenches), paths) in eights {
+            eight.read(bodies, motions, wrenches);
             eight.kick(0.5 * dt);
             eight.find_turn(&carrier, dt);
             eight.mend_large_turns();
             eight.arrive(dt);
             for (k, ((body, motion), path)) in bodies.iter_mut().zip(motions).zip(paths).enumerate() {
                 eight.write(k, body, motion);
-                *path = (eight.path[0][k], eight.path[1][k]);
+                *path = eight.path[k];
             }
+            astray += eight.astray.iter().sum::<f64>();
         }
+        astray > 0.0
     }
 }
 
 impl Eight {
     #[inline(always)]
-    fn read(&mut self, bodies: &[Body], motions: &[Motion]) {
+    fn read(&mut self, bodies: &[Body], motions: &[Motion], wrenches: &[Wrench]) {
         for k in 0..LANES {
             let from = if k < bodies.len() { k } else { 0 };
-            let (body, motion) = (&bodies[from], &motions[from]);
+            let (body, motion, wrench) = (&bodies[from], &motions[from], &wrenches[from]);
             self.mass[k] = body.mass;
             set(&mut self.inertia, k, &body.inertia);
             let q = body.orientation.coords;
@@ -105,8 +117,10 @@ impl Eight {
             set(&mut self.position, k, &motion.position);
             set(&mut self.velocity, k, &body.velocity);
             set(&mut self.momentum, k, &body.momentum);
-            set(&mut self.force, k, &body.force);
-            set(&mut self.torque, k, &body.torque);
+            self.reach[k] = body.reach;
+            self.most_travel[k] = body.most_travel;
+            set(&mut self.force, k, &wrench.force);
+            set(&mut self.torque, k, &wrench.torque);
         }
     }
 
@@ -139,7 +153,7 @@ impl Eight {
             let mean_spin = into_world(&axes, &turn) / dt;
             set(&mut self.mean_spin, k, &mean_spin);
             set(&mut self.turn, k, &turn);
-            (self.path[0][k], self.path[1][k]) = (moved.norm(), (mean_spin - carrier).norm() * dt);
+            self.path[k] = moved.norm() + (mean_spin - carrier).norm() * dt * self.reach[k];
 
             // By series, so that no library sine enters: truncation below h¹⁰/10! < 3e-17 for half angles h < 0.1.
             let h2 = 0.25 * turn.norm_squared();
@@ -181,8 +195,11 @@ impl Eight {
             let velocity = get(&self.velocity, k) + get(&self.force, k) * (0.5 * dt / self.mass[k]);
             let momentum = get(&self.momentum, k) + get(&self.torque, k) * (0.5 * dt);
             let spin = into_body(&axes, &momentum).component_div(&get(&self.inertia, k));
+            let spin = into_world(&axes, &spin);
+            let travel = travel(&velocity, &spin, self.reach[k], dt);
+            self.astray[k] = if travel <= self.most_travel[k] { 0.0 } else { 1.0 };
             set(&mut self.next_velocity, k, &velocity);
-            set(&mut self.next_spin, k, &into_world(&axes, &spin));
+            set(&mut self.next_spin, k, &spin);
             set(&mut self.axes[0], k, &axes[0]);
             set(&mut self.axes[1], k, &axes[1]);
             set(&mut self.axes[2], k, &axes[2]);
@@ -208,6 +225,12 @@ impl Eight {
             mean_spin: get(&self.mean_spin, k),
         };
     }
+}
+
+/// Most that a point within `reach`, m, of the centre of mass moves in a step of `dt`, s, in m.
+#[inline(always)]
+pub(super) fn travel(velocity: &Vector3<f64>, spin: &Vector3<f64>, reach: f64, dt: f64) -> f64 {
+    (velocity.norm() + spin.norm() * reach) * dt
 }
 
 /// Columns of the rotation matrix of a unit quaternion.

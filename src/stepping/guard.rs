@@ -1,5 +1,6 @@
 //! What stops a run that has gone wrong, while its last good state is still at hand.
 
+use super::drift::travel;
 use super::error::{DeepestContact, SimulationError};
 use super::frame::BodyState;
 use super::simulation::Simulation;
@@ -10,7 +11,7 @@ const MOST_START_OVERLAP: f64 = 0.5;
 const MOST_OVERLAP: f64 = 0.75;
 /// Farthest that any sphere centre may move in a step, of its body's smallest radius. A centre on one side of a wall and
 /// on the other side a step later has then been within a quarter of the radius, so that [`MOST_OVERLAP`] sees it.
-const MOST_TRAVEL: f64 = 0.5;
+pub(super) const MOST_TRAVEL: f64 = 0.5;
 /// Farthest position, m: beyond it the near-pair search, in single precision, is too coarse.
 const FARTHEST: f64 = 100.0;
 
@@ -34,19 +35,21 @@ impl Simulation {
         {
             return Err(SimulationError::Overlap { body, partner, step, time, ratio: self.tally.deepest });
         }
-        for (body, (motion, &kind)) in self.motions.iter().zip(&self.kinds).enumerate() {
-            let (reach, smallest) = self.reaches[kind];
-            let travel = (motion.velocity.norm() + motion.spin.norm() * reach) * dt;
-            // Also false for NaN.
-            if travel <= MOST_TRAVEL * smallest {
-                continue;
-            }
-            let contact = DeepestContact(self.field.deepest());
-            return Err(if travel.is_finite() {
-                SimulationError::TooFast { body, step, time, ratio: travel / smallest, contact }
-            } else {
-                SimulationError::NotFinite { body, step, time, contact }
+        if self.astray {
+            let travels = self.bodies.iter().zip(&self.motions).map(|(body, motion)| {
+                (travel(&motion.velocity, &motion.spin, body.reach, dt), body.most_travel)
             });
+            // A NaN is not within bounds either.
+            let astray = travels.enumerate().find(|(_, (travel, most))| !(travel <= most));
+            if let Some((body, (travel, most))) = astray {
+                let contact = DeepestContact(self.field.deepest());
+                let ratio = MOST_TRAVEL * travel / most;
+                return Err(if travel.is_finite() {
+                    SimulationError::TooFast { body, step, time, ratio, contact }
+                } else {
+                    SimulationError::NotFinite { body, step, time, contact }
+                });
+            }
         }
         Ok(())
     }

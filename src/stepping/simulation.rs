@@ -5,6 +5,7 @@ use super::drift::Drift;
 use super::energy::EnergyAudit;
 use super::error::SimulationError;
 use super::frame::BodyState;
+use super::guard::MOST_TRAVEL;
 use super::impulse;
 use super::stopwatch::{Phase, Stopwatch};
 use super::time_step::TimeStep;
@@ -25,8 +26,6 @@ const CHUNK: usize = 128;
 pub struct Simulation {
     pub(super) scene: Scene,
     shapes: Vec<TabletShape>,
-    /// Of each shape: farthest sphere centre and smallest radius, m.
-    pub(super) reaches: Vec<(f64, f64)>,
     drum: Option<SurfaceMesh>,
     /// What had to be put right in mesh files.
     repairs: Vec<String>,
@@ -46,8 +45,10 @@ pub struct Simulation {
     /// Velocity and spin of each surface.
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
     wrenches: Vec<Wrench>,
-    /// How far each body moved, m, and turned, rad, against the carrier in the last step.
-    paths: Vec<(f64, f64)>,
+    /// How far each body's farthest sphere centre went against the carrier in the last step, m.
+    paths: Vec<f64>,
+    /// Whether some body moves farther in a step than it may, or is nowhere.
+    pub(super) astray: bool,
     pub(super) rng: ChaCha8Rng,
     torque_sum: f64,
     torque_steps: u64,
@@ -81,7 +82,6 @@ impl Simulation {
             repairs: shapes.iter().flat_map(of_shape).chain(of_drum).collect(),
             drum: drum.map(|surface| surface.mesh),
             scene: scene.clone(),
-            reaches: shapes.iter().map(|s| (s.clump.reach(), s.clump.smallest_radius())).collect(),
             shapes,
             step: 0,
             world: World::new(),
@@ -97,6 +97,7 @@ impl Simulation {
             drives: Vec::new(),
             wrenches: Vec::new(),
             paths: Vec::new(),
+            astray: false,
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
             torque_sum: 0.0,
             torque_steps: 0,
@@ -191,12 +192,12 @@ impl Simulation {
             orientation: state.orientation,
             velocity: state.velocity,
             momentum,
-            force: self.scene.gravity * mass,
-            torque: Vector3::zeros(),
+            reach: clump.reach(),
+            most_travel: MOST_TRAVEL * clump.smallest_radius(),
         });
         self.kinds.push(shape);
         self.motions.push(motion);
-        self.wrenches.push(Wrench { force: Vector3::zeros(), torque: Vector3::zeros() });
+        self.wrenches.push(Wrench { force: self.scene.gravity * mass, torque: Vector3::zeros() });
     }
 
     /// One time step: kick, drift, forces at the new time level, kick.
@@ -209,8 +210,8 @@ impl Simulation {
         self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
         self.feel(dt);
-        for body in &mut self.bodies {
-            body.kick(0.5 * dt);
+        for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
+            body.kick(wrench, 0.5 * dt);
         }
         if let Some(audit) = &mut self.audit {
             let bodies = (&self.bodies[..], &self.motions[..]);
@@ -234,9 +235,6 @@ impl Simulation {
         self.tally =
             self.field.add_forces(&self.motions, &self.surfaces, &self.world, dt, &mut self.wrenches);
         self.stopwatch.lap(Phase::Contact);
-        for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
-            (body.force, body.torque) = (wrench.force, wrench.torque);
-        }
     }
 
     fn advance_by_impulses(&mut self, dt: f64) {
@@ -252,11 +250,13 @@ impl Simulation {
 
     fn drift(&mut self, dt: f64) {
         let carrier = self.carrier().spin;
-        self.paths.resize(self.bodies.len(), (0.0, 0.0));
+        self.paths.resize(self.bodies.len(), 0.0);
         let bodies = self.bodies.par_chunks_mut(CHUNK).zip(self.motions.par_chunks_mut(CHUNK));
-        bodies.zip(self.paths.par_chunks_mut(CHUNK)).for_each(|((bodies, motions), paths)| {
-            pulp::Arch::new().dispatch(Drift { bodies, motions, paths, carrier, dt });
-        });
+        let chunks = bodies.zip(self.wrenches.par_chunks(CHUNK)).zip(self.paths.par_chunks_mut(CHUNK));
+        let drift = |(((bodies, motions), wrenches), paths)| {
+            pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, paths, carrier, dt })
+        };
+        self.astray = chunks.map(drift).reduce(|| false, |one, other| one | other);
         self.world.travel(&self.paths);
         self.step += 1;
         self.move_surfaces();

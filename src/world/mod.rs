@@ -165,11 +165,11 @@ impl World {
         index
     }
 
-    /// Tells the world how far each tablet moved, m, and turned, rad, against the carrier in a step.
-    pub fn travel(&mut self, paths: &[(f64, f64)]) {
+    /// Tells the world how far each tablet's farthest sphere centre went against the carrier in a step, m.
+    pub fn travel(&mut self, paths: &[f64]) {
         let mut farthest = 0.0_f64;
-        for ((odometer, track), (moved, turned)) in self.odometers.iter_mut().zip(&self.tracks).zip(paths) {
-            let path = tuning::SAFETY * (moved + turned * track.reach);
+        for (odometer, path) in self.odometers.iter_mut().zip(paths) {
+            let path = tuning::SAFETY * path;
             *odometer += path;
             farthest = farthest.max(path);
         }
