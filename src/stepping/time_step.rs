@@ -127,10 +127,13 @@ fn landing_frequency(shape: &TabletShape, mass: f64, modulus: f64, speed: f64) -
     squared.fold(0.0, f64::max).sqrt()
 }
 
-/// (shape, material, mass) of every kind of body.
-fn kinds(scene: &Scene) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+/// (shape, material, mass) of every kind of body, each once.
+fn kinds(scene: &Scene) -> Vec<(usize, usize, f64)> {
     let batches = scene.batches.iter().map(|b| (b.shape, b.material, b.tablet_mass));
-    batches.chain(scene.bodies.iter().map(|b| (b.shape, b.material, b.mass)))
+    let mut kinds: Vec<_> = batches.chain(scene.bodies.iter().map(|b| (b.shape, b.material, b.mass))).collect();
+    kinds.sort_unstable_by_key(|(shape, material, mass)| (*shape, *material, mass.to_bits()));
+    kinds.dedup();
+    kinds
 }
 
 /// Duration of an elastic Hertz contact, s: T = 2.868 (m*²/(R* E*² v))^(1/5).
