@@ -34,12 +34,14 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
     }
     for parted in parted.chunk_by(|x, y| group(x.0) == group(y.0)) {
         if let Some(group) = groups.get_mut(group(parted[0].0)) {
-            let stays = |key| parted.binary_search(&key).is_err();
-            let staying: Vec<_> = group.pairs.iter().map(|pair| stays(pair.key())).collect();
-            keep(&mut group.wakes, &staying);
-            keep(&mut group.pairs, &staying);
-            keep(&mut group.lists, &staying);
-            group.links.retain(stays);
+            for key in parted {
+                if let Ok(at) = group.pairs.binary_search_by_key(key, Pair::key) {
+                    group.wakes.remove(at);
+                    group.pairs.remove(at);
+                    group.lists.remove(at);
+                }
+            }
+            group.links.retain(|key| parted.binary_search(&key).is_err());
         }
     }
     for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {
@@ -52,10 +54,4 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
             }
         }
     }
-}
-
-/// Keeps those of `all` that stay.
-fn keep<T>(all: &mut Vec<T>, staying: &[bool]) {
-    let mut staying = staying.iter();
-    all.retain(|_| staying.next().is_some_and(|stays| *stays));
 }

@@ -122,10 +122,8 @@ proptest! {
                 (step * share).norm() + (turn * share).norm() * shapes[*kind].clump.reach()
             });
             world.travel(&paths.collect::<Vec<_>>());
-            if world.must_search(&motions, &rest) {
-                let near = world.search(&motions, &[rest], &rest);
-                field.change_near(&near.parted, &near.met);
-            }
+            let near = world.search(&motions, &[rest], &rest);
+            field.change_near(&near.parted, &near.met);
             field.add_forces(&motions, &[rest], &world, 0.0, &mut wrenches);
             compare(&of_lists(&field), &of_rapier(&kinds, &motions))?;
         }

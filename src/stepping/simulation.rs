@@ -224,11 +224,9 @@ impl Simulation {
     /// Forces and torques at the present time level; springs advance by `dt` s.
     fn feel(&mut self, dt: f64) {
         let carrier = self.carrier();
-        if self.world.must_search(&self.motions, &carrier) {
-            let near = self.world.search(&self.motions, &self.surfaces[..self.meshes], &carrier);
-            self.field.change_near(&near.parted, &near.met);
-            self.stopwatch.lap(Phase::Search);
-        }
+        let near = self.world.search(&self.motions, &self.surfaces[..self.meshes], &carrier);
+        self.field.change_near(&near.parted, &near.met);
+        self.stopwatch.lap(Phase::Search);
         for (wrench, body) in self.wrenches.iter_mut().zip(&self.bodies) {
             *wrench = Wrench { force: self.scene.gravity * body.mass, torque: Vector3::zeros() };
         }

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 /// Takes every pair of near bodies out of Rapier's hands: the pair is noted for our own contact law, and answered with
 /// `None`, so that Rapier neither computes nor solves anything for it.
 ///
-/// **Threads**: Rapier may call it from several threads; the order of calls does not matter, pairs are sorted later.
+/// **Order**: pairs are noted in the order in which they are asked for, which is theirs.
 #[derive(Default)]
 pub(super) struct ContactHooks {
     near: Mutex<Vec<(u32, u32)>>,
@@ -22,7 +22,7 @@ impl ContactHooks {
         debug_assert!(left_to_rapier.is_none());
     }
 
-    /// The pairs seen since the last call, smaller index first, in any order.
+    /// The pairs seen since the last call, smaller index first.
     pub(super) fn take(&self) -> Vec<(u32, u32)> {
         std::mem::take(&mut *self.near.lock().expect("no hook panics"))
     }
@@ -46,7 +46,7 @@ pub(super) fn context<'a>(
 }
 
 /// The tablets of a pair, smaller index first.
-pub(super) fn tablets(context: &PairFilterContext<'_>) -> Option<(u32, u32)> {
+fn tablets(context: &PairFilterContext<'_>) -> Option<(u32, u32)> {
     let index = |handle: Option<RigidBodyHandle>| {
         handle.map(|h| context.bodies[h].user_data).filter(|data| *data != SURFACE).map(|data| data as u32)
     };

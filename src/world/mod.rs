@@ -8,6 +8,7 @@
 //! contacts into forces (room `contact`) or move anything (room `stepping`), but for [`ImpulseWorld`], which does both
 //! when a scene asks for it.
 
+mod boxes;
 #[cfg(test)]
 pub(crate) mod harvest;
 mod hooks;
@@ -20,7 +21,8 @@ pub use impulse::ImpulseWorld;
 pub use motion::{Motion, Relative};
 
 use crate::shapes::{Clump, SurfaceMesh};
-use hooks::{ContactHooks, SURFACE, context, tablets};
+use boxes::Boxes;
+use hooks::{ContactHooks, SURFACE, context};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use rapier3d::prelude::*;
 
@@ -28,12 +30,13 @@ use rapier3d::prelude::*;
 pub struct World {
     bodies: RigidBodySet,
     colliders: ColliderSet,
-    broad_phase: DefaultBroadPhase,
+    boxes: Boxes,
     hooks: ContactHooks,
-    parameters: IntegrationParameters,
     tablets: Vec<(RigidBodyHandle, ColliderHandle)>,
     surfaces: Vec<(RigidBodyHandle, SharedShape)>,
     tracks: Vec<Track>,
+    /// Odometer up to which each tablet's margin holds for sure, m.
+    marks: Vec<f64>,
     /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
     odometers: Vec<f64>,
     /// Distance that any of them can have moved so far, m.
@@ -41,9 +44,9 @@ pub struct World {
 }
 
 /// What a search changes: pairs of bodies, smaller index first, sorted.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct NearChanges {
-    /// No longer near each other. A pair may be in both lists: it parted first.
+    /// No longer near each other.
     pub parted: Vec<(u32, u32)>,
     /// Near each other now.
     pub met: Vec<(u32, u32)>,
@@ -60,15 +63,6 @@ struct Track {
     reach: f64,
     /// Largest distance of a sphere's far side from there, m.
     bounding_radius: f64,
-    /// Odometer up to which the margin holds for sure, m.
-    mark: f64,
-}
-
-impl Track {
-    /// Whether less than `share` of the margin is used up; false for a NaN pose.
-    fn within(&self, now: &Relative, share: f64) -> bool {
-        now.moved_since(&self.known, &Vector3::zeros(), self.reach) < share * self.margin
-    }
 }
 
 impl Default for World {
@@ -83,10 +77,11 @@ impl Clone for World {
         Self {
             bodies: self.bodies.clone(),
             colliders: self.colliders.clone(),
-            broad_phase: self.broad_phase.clone(),
+            boxes: self.boxes.clone(),
             tablets: self.tablets.clone(),
             surfaces: self.surfaces.clone(),
             tracks: self.tracks.clone(),
+            marks: self.marks.clone(),
             odometers: self.odometers.clone(),
             pace: self.pace,
             ..Self::new()
@@ -100,20 +95,12 @@ impl World {
         Self {
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
-            broad_phase: DefaultBroadPhase::new(),
+            boxes: Boxes::default(),
             hooks: ContactHooks::default(),
-            parameters: IntegrationParameters {
-                dt: 0.0,
-                length_unit: tuning::LENGTH_UNIT,
-                normalized_prediction_distance: 0.0,
-                max_ccd_substeps: 0,
-                contact_clustering: false,
-                contact_recycling: false,
-                ..IntegrationParameters::default()
-            },
             tablets: Vec::new(),
             surfaces: Vec::new(),
             tracks: Vec::new(),
+            marks: Vec::new(),
             odometers: Vec::new(),
             pace: 0.0,
         }
@@ -159,8 +146,8 @@ impl World {
             margin: 0.0,
             reach: clump.reach(),
             bounding_radius: clump.bounding_radius(),
-            mark: f64::NEG_INFINITY,
         });
+        self.marks.push(f64::NEG_INFINITY);
         self.odometers.push(0.0);
         index
     }
@@ -186,33 +173,26 @@ impl World {
         &self.odometers
     }
 
-    /// Whether some body may have come near another since the last search: it has used up its margin.
-    pub fn must_search(&mut self, motions: &[Motion], carrier: &Motion) -> bool {
-        let bodies = self.tracks.iter_mut().zip(&self.odometers).zip(motions);
-        bodies.filter(|((track, odometer), _)| odometer.is_nan() || **odometer > track.mark).any(
-            |((track, odometer), motion)| {
-                let now = motion.seen_from(carrier);
-                track.mark =
-                    odometer + track.margin - now.moved_since(&track.known, &Vector3::zeros(), track.reach);
-                !track.within(&now, tuning::SPENT)
-            },
-        )
-    }
-
-    /// Which pairs of bodies can touch before [`World::must_search`] says so that could not by the last search, and the
-    /// other way round.
+    /// Which pairs of bodies can touch before the next search that could not by the last one, and the other way round; to
+    /// be called at every step, since it sees to it that no body uses up its margin.
     ///
-    /// Rapier's broad phase learns the boxes of bodies that have used most of their margin and tells which pairs of boxes
-    /// have met or parted. Of those that met the hooks are asked at once: its narrow phase would ask them again for every
-    /// pair of a moved body, and be answered that there is nothing to do.
+    /// The tree learns the boxes of bodies that have used most of their margin and tells which pairs of boxes have met or
+    /// parted. Of those that met the hooks are asked at once: Rapier's narrow phase would ask them again for every pair of
+    /// a moved body, and be answered that there is nothing to do.
     pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> NearChanges {
         for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
             self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
         }
         for (k, (body, collider)) in self.tablets.iter().enumerate() {
+            // Not so for a NaN, too.
+            if self.odometers[k] <= self.marks[k] {
+                continue;
+            }
             let (motion, track) = (&motions[k], &mut self.tracks[k]);
             let now = motion.seen_from(carrier);
-            if track.within(&now, tuning::EARLY) {
+            let moved = now.moved_since(&track.known, &Vector3::zeros(), track.reach);
+            if moved < tuning::SPENT * track.margin {
+                self.marks[k] = self.odometers[k] + track.margin - moved;
                 continue;
             }
             let velocity = motion.velocity - carrier.velocity_at(&(motion.position - carrier.position));
@@ -223,29 +203,20 @@ impl World {
             let pose = pose(&now);
             self.bodies[*body].set_position(pose, false);
             let bounds = self.colliders[*collider].shape().compute_aabb(&pose).loosened(margin as f32);
-            self.broad_phase.set_aabb(&self.parameters, *collider, bounds);
+            self.boxes.put(k as u32, bounds);
             track.known = now;
             track.margin = margin - tuning::ROUNDING;
-            track.mark = self.odometers[k] + track.margin;
+            self.marks[k] = self.odometers[k] + track.margin;
         }
-        let mut events = Vec::new();
-        let Self { broad_phase, parameters, colliders, bodies, hooks, .. } = self;
-        broad_phase.update(parameters, colliders, bodies, &[], &[], &mut events);
-        let mut parted = Vec::new();
-        for event in events {
-            match event {
-                BroadPhasePairEvent::AddPair(pair) => hooks.met(&context(bodies, colliders, pair)),
-                BroadPhasePairEvent::DeletePair(pair) => {
-                    parted.extend(tablets(&context(bodies, colliders, pair)));
-                }
-            }
+        let NearChanges { parted, met } = self.boxes.changes();
+        for (a, b) in met {
+            self.hooks.met(&context(&self.bodies, &self.colliders, self.pair(a, b)));
         }
-        let mut met = self.hooks.take();
-        for pairs in [&mut parted, &mut met] {
-            pairs.sort_unstable();
-            pairs.dedup();
-        }
-        NearChanges { parted, met }
+        NearChanges { parted, met: self.hooks.take() }
+    }
+
+    fn pair(&self, a: u32, b: u32) -> ColliderPair {
+        ColliderPair::new(self.tablets[a as usize].1, self.tablets[b as usize].1)
     }
 
     /// Fills `facets` with the facets of a surface whose boxes meet the box from `min` to `max` (surface axes, m), in no
