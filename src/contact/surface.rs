@@ -8,16 +8,20 @@ use nalgebra::Vector3;
 pub(super) struct Facet {
     corners: [Vector3<f64>; 3],
     normal: Vector3<f64>,
-    /// Of each edge k → k+1: vector in the facet's plane at right angles to it, away from the facet; and what a point of
-    /// the edge gives with it.
-    edges: [(Vector3<f64>, f64); 3],
-    /// Ball about the facet: centre, m, and radius, m.
-    ball: (Vector3<f64>, f64),
+    walls: Walls,
     patch: u32,
     /// Patches that meet each edge k → k+1 and each corner, this facet's own left out.
     edge_patches: [Vec<u32>; 3],
     corner_patches: [Vec<u32>; 3],
 }
+
+/// Four planes about a facet: its own and, upright on it, one along each edge k → k+1, which faces away from it. Rows: x, y
+/// and z of the planes' unit normals, and what a point of each plane gives with its normal, m.
+pub(super) type Walls = [[f64; 4]; 4];
+
+/// What two squares of distances may differ by in rounding: 1e-9 is far above it. Of facets as near as that, the nearest
+/// places decide.
+const SURELY: f64 = 1.0 + 1e-9;
 
 /// The place of a surface that is nearest to a point.
 #[derive(Debug, Clone, Copy)]
@@ -61,16 +65,19 @@ impl Surface {
                 corner_patches[k].iter().copied().filter(|p| next.contains(p)).collect()
             };
             let corners = t.map(|v| mesh.vertices[v as usize]);
-            let center = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let radius = corners.iter().map(|c| (c - center).norm()).fold(0.0, f64::max);
-            let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+            // Of a facet without area zero, with which nothing is told of any point.
+            let unit = |v: Vector3<f64>| v.try_normalize(0.0).unwrap_or_default();
+            let normal = unit((corners[1] - corners[0]).cross(&(corners[2] - corners[0])));
+            let away = |k: usize| unit((corners[(k + 1) % 3] - corners[k]).cross(&normal));
+            let planes = [(normal, 0), (away(0), 0), (away(1), 1), (away(2), 2)];
             Facet {
-                ball: (center, radius),
                 normal,
-                edges: [0, 1, 2].map(|k: usize| {
-                    let away = (corners[(k + 1) % 3] - corners[k]).cross(&normal);
-                    (away, away.dot(&corners[k]))
-                }),
+                walls: [
+                    planes.map(|(n, _)| n.x),
+                    planes.map(|(n, _)| n.y),
+                    planes.map(|(n, _)| n.z),
+                    planes.map(|(n, k): (_, usize)| n.dot(&corners[k])),
+                ],
                 corners,
                 patch,
                 edge_patches: [edge(0), edge(1), edge(2)],
@@ -89,61 +96,90 @@ impl Surface {
         }
     }
 
+    /// Planes that tell how far a facet is at least, see [`super::walls`]; of an unbounded plane only one side is free.
+    #[inline(always)]
+    pub(super) fn walls(&self, facet: u32) -> Walls {
+        match self {
+            Self::Plane(point, n) => {
+                let from = n.dot(point);
+                [[0.0, n.x, n.x, n.x], [0.0, n.y, n.y, n.y], [0.0, n.z, n.z, n.z], [0.0, from, from, from]]
+            }
+            Self::Mesh(all) => all[facet as usize].walls,
+        }
+    }
+
     /// Whether a facet is surely farther than `distance` from `p` (surface axes).
-    #[inline]
+    #[inline(always)]
     pub(super) fn beyond(&self, facet: u32, p: &Vector3<f64>, distance: f64) -> bool {
         match self {
             Self::Plane(point, normal) => (p - point).dot(normal) > distance,
-            Self::Mesh(all) => all[facet as usize].beyond(p, distance),
+            Self::Mesh(all) => all[facet as usize].least(p) > distance * distance,
         }
     }
 
     /// Nearest place to `p` (surface axes) among the listed facets; a plane ignores the list.
-    #[inline]
+    #[inline(always)]
     pub(super) fn nearest(&self, p: &Vector3<f64>, facets: &[u32]) -> Nearest<'_> {
-        match self {
+        let all = match self {
             Self::Plane(point, normal) => {
-                Nearest { distance: (p - point).dot(normal), normal: -normal, shared: &[] }
+                return Nearest { distance: (p - point).dot(normal), normal: -normal, shared: &[] };
             }
-            Self::Mesh(all) => {
-                let mut best: Option<(f64, Vector3<f64>, &[u32], u32)> = None;
-                for &f in facets {
-                    let (to, shared) = all[f as usize].closest(p);
-                    let d2 = to.norm_squared();
-                    if best.as_ref().is_none_or(|b| d2 < b.0) {
-                        best = Some((d2, to, shared, f));
-                    }
-                }
-                let Some((d2, to, shared, f)) = best else {
-                    return Nearest { distance: f64::INFINITY, normal: Vector3::y(), shared: &[] };
-                };
-                let distance = d2.sqrt();
-                let normal = if distance > 0.0 { to / distance } else { -all[f as usize].normal };
-                Nearest { distance, normal, shared }
+            Self::Mesh(all) => all,
+        };
+        // Points above the inside of a facet are the most frequent, and then no other facet is likely to be nearer.
+        let (mut least, mut above) = (f64::INFINITY, None);
+        for &f in facets {
+            let (height, past) = all[f as usize].over(p);
+            if past < 0.0 && height * height < least {
+                (least, above) = (height * height, Some(f));
             }
         }
+        let inside = |f: u32| {
+            let Facet { corners, normal, .. } = &all[f as usize];
+            (f, normal * normal.dot(&(corners[0] - p)), &[][..])
+        };
+        let mut best = above.map(inside);
+        for &f in facets {
+            if Some(f) != above && all[f as usize].least(p) < SURELY * least {
+                let (to, shared) = all[f as usize].closest(p);
+                if to.norm_squared() < least {
+                    (least, best) = (to.norm_squared(), Some((f, to, shared)));
+                }
+            }
+        }
+        let Some((f, to, shared)) = best else {
+            return Nearest { distance: f64::INFINITY, normal: Vector3::y(), shared: &[] };
+        };
+        let distance = to.norm();
+        let normal = if distance > 0.0 { to / distance } else { -all[f as usize].normal };
+        Nearest { distance, normal, shared }
     }
 }
 
 impl Facet {
-    /// Whether the facet is surely farther from `p` than `distance`.
-    #[inline]
-    pub(super) fn beyond(&self, p: &Vector3<f64>, distance: f64) -> bool {
-        let from = p - self.ball.0;
-        let reach = self.ball.1 + distance;
-        self.normal.dot(&from).abs() > distance || from.norm_squared() > reach * reach
+    /// How far `p` is above the facet's plane, and how far at most past an edge, m: negative above its inside.
+    #[inline(always)]
+    fn over(&self, p: &Vector3<f64>) -> (f64, f64) {
+        let [x, y, z, from] = &self.walls;
+        let mut ahead = [0.0; 4];
+        for k in 0..4 {
+            ahead[k] = x[k] * p.x + y[k] * p.y + z[k] * p.z - from[k];
+        }
+        (ahead[0], ahead[1].max(ahead[2]).max(ahead[3]))
+    }
+
+    /// Square of the distance that `p` has at least, m².
+    #[inline(always)]
+    fn least(&self, p: &Vector3<f64>) -> f64 {
+        let (height, past) = self.over(p);
+        height * height + past.max(0.0).powi(2)
     }
 
     /// Vector from `p` to the closest point of the triangle, and the other patches there.
     ///
-    /// Source: Ericson 2005, Real-Time Collision Detection, section 5.1.5; points above the inside of the facet, the most
-    /// frequent ones, first.
-    #[inline]
+    /// Source: Ericson 2005, Real-Time Collision Detection, section 5.1.5.
     fn closest(&self, p: &Vector3<f64>) -> (Vector3<f64>, &[u32]) {
         let [a, b, c] = &self.corners;
-        if self.edges.iter().all(|(away, edge)| away.dot(p) < *edge) {
-            return (self.normal * self.normal.dot(&(a - p)), &[]);
-        }
         let (ab, ac, ap) = (b - a, c - a, p - a);
         let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
         if d1 <= 0.0 && d2 <= 0.0 {

@@ -10,9 +10,11 @@ use super::law::Spring;
 use super::lease::Lease;
 use super::pairs::{Scratch, Setting};
 use super::side::Side;
-use super::surface::{Nearest, Surface};
+use super::surface::{Nearest, Surface, Walls};
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
+use wide::f32x8;
 
 /// One sphere against one patch.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +38,8 @@ pub(super) struct WallList {
     held: Vec<u32>,
     facets: Vec<u32>,
     listed: Lease,
-    /// Spheres and facets that were near when they were `sought`, sorted by (sphere, patch).
-    candidates: Vec<(u16, u32)>,
+    /// Spheres, patches and facets that were near when they were `sought`, sorted.
+    candidates: Vec<(u16, u32, u32)>,
     sought: Lease,
     mark: f64,
 }
@@ -47,7 +49,7 @@ pub(super) struct WallList {
 pub(super) struct WallWatch {
     pub body: u32,
     pub surface: u32,
-    /// Odometer up to which the list is complete and empty, m.
+    /// Odometer up to which the list is complete and nothing of it touches, m.
     quiet: f64,
 }
 
@@ -80,6 +82,8 @@ pub(super) struct Boundary {
 const WIDE: f64 = 6.0;
 /// How far a body that has no candidate looks for walls, in skins: one far from all of them rests long.
 const LOOKOUT: f64 = 24.0;
+/// Error of a gap measured in f32, as a share of the distances it is measured from.
+const ROUNDING: f64 = 1e-6;
 
 impl WallList {
     pub(super) fn new() -> Self {
@@ -96,7 +100,7 @@ impl WallList {
 
     /// Makes sure every sphere and facet that touch are listed. `facets_near` fills the facets of the surface whose
     /// boxes meet a box (surface axes, m).
-    #[inline]
+    #[inline(always)]
     pub(super) fn refresh(
         &mut self,
         watch: &mut WallWatch,
@@ -133,29 +137,31 @@ impl WallList {
         self.mark = travelled + self.listed.allowance;
     }
 
-    /// Finds the candidates among the facets `near`.
-    fn seek(&mut self, outline: &Outline, surface: &Surface, at: Relative, skin: f64, near: &mut Vec<u32>) {
-        let Relative { position, rotation } = at;
-        let (wide, mut nearest) = (WIDE * skin, LOOKOUT * skin);
+    /// Finds the candidates among the facets `near`: eight spheres at a time, with what their gap is at least.
+    #[inline(always)]
+    fn seek(&mut self, outline: &Outline, surface: &Surface, at: Relative, skin: f64, near: &[u32]) {
+        let (wide, lookout) = (WIDE * skin, LOOKOUT * skin);
+        let mut nearest = f32x8::splat(lookout as f32);
         self.candidates.clear();
-        near.retain(|f| !surface.beyond(*f, &position, outline.bounding_radius + nearest));
-        near.sort_unstable_by_key(|f| (surface.patch(*f), *f));
-        for (i, sphere) in outline.balls.iter().enumerate() {
-            let center = position + rotation * sphere.center;
-            for &f in near.iter() {
-                if surface.beyond(f, &center, sphere.radius + nearest) {
-                    continue;
-                }
-                let gap = surface.nearest(&center, &[f]).distance - sphere.radius;
-                if gap < wide {
-                    self.candidates.push((i as u16, f));
-                    nearest = wide;
-                } else {
-                    nearest = nearest.min(gap);
+        for &f in near {
+            let planes = seen_by_body(&surface.walls(f), &at);
+            for (k, &[x, y, z, radius]) in outline.eights.iter().enumerate() {
+                let [x, y, z, radius] = [x, y, z, radius].map(f32x8::new);
+                let [height, past @ ..] = planes.map(|[nx, ny, nz, from]| nx * x + ny * y + nz * z - from);
+                let past = past.into_iter().fold(f32x8::ZERO, f32x8::fast_max);
+                let gap = (height * height + past * past).sqrt() - radius;
+                nearest = nearest.fast_min(gap);
+                let mut met = gap.simd_lt(f32x8::splat(wide as f32)).to_bitmask();
+                while met != 0 {
+                    self.candidates.push((8 * k as u16 + met.trailing_zeros() as u16, surface.patch(f), f));
+                    met &= met - 1;
                 }
             }
         }
-        self.sought = Lease { at, about: Vector3::zeros(), lever: outline.reach, allowance: nearest };
+        self.candidates.sort_unstable();
+        let nearest = nearest.to_array().into_iter().fold(f32::INFINITY, f32::min);
+        let allowance = f64::from(nearest).max(wide) - ROUNDING * (outline.bounding_radius + lookout);
+        self.sought = Lease { at, about: Vector3::zeros(), lever: outline.reach, allowance };
     }
 
     /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
@@ -164,13 +170,13 @@ impl WallList {
         let old = std::mem::take(&mut self.grips);
         let mut memory = old.into_iter().filter(|g| g.touching).peekable();
         self.facets.clear();
-        let patches = self.candidates.chunk_by(|a, b| a.0 == b.0 && surface.patch(a.1) == surface.patch(b.1));
+        let patches = self.candidates.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
         for candidates in patches {
-            let (sphere, patch) = (candidates[0].0, surface.patch(candidates[0].1));
+            let (sphere, patch, _) = candidates[0];
             let Ball { center, radius, .. } = &outline.balls[sphere as usize];
             let center = *position + *rotation * center;
             let first = self.facets.len() as u32;
-            for &(_, f) in candidates {
+            for &(.., f) in candidates {
                 if surface.beyond(f, &center, radius + *allowance) {
                     continue;
                 }
@@ -197,7 +203,7 @@ impl WallList {
     }
 
     /// Hands what touches to `batch`, whose owner keeps this list at `list`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn look(
         &mut self,
         watch: &mut WallWatch,
@@ -207,11 +213,6 @@ impl WallList {
         Scratch { places, .. }: &mut Scratch,
         batch: &mut Batch,
     ) {
-        if self.grips.is_empty() {
-            watch.quiet = if boundary.carrier { self.mark } else { f64::NEG_INFINITY };
-            return;
-        }
-        watch.quiet = f64::NEG_INFINITY;
         let body = watch.body as usize;
         let constants = &setting.bodies[body];
         let motion = &setting.motions[body];
@@ -221,32 +222,26 @@ impl WallList {
         let travelled = setting.odometers[body];
         places.clear();
         self.held.clear();
-        let mut first = 0;
-        while first < self.grips.len() {
-            let i = self.grips[first].sphere;
-            let last = first + self.grips[first..].iter().take_while(|g| g.sphere == i).count();
-            if self.grips[first..last].iter().all(|g| travelled < g.until) {
-                first = last;
+        let (mut seen, mut arm, mut local) = (None, Vector3::zeros(), Vector3::zeros());
+        let (mut quiet, mut changed) = (self.mark, false);
+        for k in 0..self.grips.len() {
+            let grip = &self.grips[k];
+            if travelled < grip.until {
+                quiet = quiet.min(grip.until);
                 continue;
             }
-            let sphere = &balls[i as usize];
-            let arm = motion.rotation * sphere.center;
-            let local = surface.rotation.tr_mul(&(offset + arm));
-            let start = places.len();
-            for k in first..last {
-                let grip = &self.grips[k];
-                if travelled < grip.until {
-                    continue;
-                }
-                let (from, to) = grip.facets;
-                let nearest = boundary.surface.nearest(&local, &self.facets[from as usize..to as usize]);
-                let overlap = sphere.radius - nearest.distance;
-                if overlap <= 0.0 && boundary.carrier {
-                    self.grips[k].until = travelled - overlap;
-                }
-                if overlap <= 0.0 || self.taken(&nearest, first..last, k, &local, boundary) {
-                    continue;
-                }
+            let sphere = &balls[grip.sphere as usize];
+            if seen != Some(grip.sphere) {
+                seen = Some(grip.sphere);
+                arm = motion.rotation * sphere.center;
+                local = surface.rotation.tr_mul(&(offset + arm));
+            }
+            let nearest = boundary.surface.nearest(&local, self.facets_of(grip));
+            let overlap = sphere.radius - nearest.distance;
+            let holds =
+                overlap > 0.0 && (nearest.shared.is_empty() || !self.taken(&nearest, k, &local, boundary));
+            changed |= holds != grip.touching;
+            if holds {
                 self.held.push(k as u32);
                 places.push(Place {
                     arm,
@@ -255,11 +250,16 @@ impl WallList {
                     radius: sphere.radius,
                     curvature: sphere.curvature,
                     sharpness: sphere.curvature,
-                    spring: self.grips[k].spring,
+                    spring: grip.spring,
                 });
+            } else if overlap <= 0.0 && boundary.carrier {
+                self.grips[k].until = travelled - overlap;
+                quiet = quiet.min(travelled - overlap);
             }
-            self.hand_over(first..last, start, &mut places[start..]);
-            first = last;
+        }
+        watch.quiet = if boundary.carrier && places.is_empty() { quiet } else { f64::NEG_INFINITY };
+        if changed {
+            self.hand_over(places);
         }
         if !places.is_empty() {
             let law = setting.law(constants.material, boundary.material);
@@ -278,47 +278,58 @@ impl WallList {
         }
     }
 
-    /// Whether another patch of the same sphere already feels this place: the place lies on a border with that patch,
-    /// and that patch is nearer to the sphere (or as near and first).
-    fn taken(
-        &self,
-        nearest: &Nearest<'_>,
-        same_sphere: std::ops::Range<usize>,
-        own: usize,
-        local: &Vector3<f64>,
-        boundary: &Boundary,
-    ) -> bool {
-        if nearest.shared.is_empty() {
-            return false;
-        }
-        same_sphere.into_iter().any(|k| {
-            let other = &self.grips[k];
-            if k == own || !nearest.shared.contains(&other.patch) {
-                return false;
+    /// The patch's facets near the sphere.
+    #[inline(always)]
+    fn facets_of(&self, grip: &Grip) -> &[u32] {
+        &self.facets[grip.facets.0 as usize..grip.facets.1 as usize]
+    }
+
+    /// Whether another patch of the same sphere already feels this place of grip `own`: the place lies on a border with
+    /// that patch, and that patch is nearer to the sphere (or as near and first).
+    fn taken(&self, nearest: &Nearest<'_>, own: usize, local: &Vector3<f64>, boundary: &Boundary) -> bool {
+        let same = |grip: &&Grip| grip.sphere == self.grips[own].sphere;
+        let (before, after) = (&self.grips[..own], &self.grips[own + 1..]);
+        let at = |other: &Grip| {
+            let shares = nearest.shared.contains(&other.patch);
+            if shares {
+                boundary.surface.nearest(local, self.facets_of(other)).distance
+            } else {
+                f64::INFINITY
             }
-            let (from, to) = other.facets;
-            let there = boundary.surface.nearest(local, &self.facets[from as usize..to as usize]).distance;
-            there < nearest.distance || (there == nearest.distance && k < own)
-        })
+        };
+        before.iter().rev().take_while(same).any(|other| at(other) <= nearest.distance)
+            || after.iter().take_while(same).any(|other| at(other) < nearest.distance)
     }
 
     /// The spring of a patch that lets go of a sphere moves to a patch that takes it on in the same step; `places` are
-    /// those of the grips that hold from `start` on.
-    fn hand_over(&mut self, grips: std::ops::Range<usize>, start: usize, places: &mut [Place]) {
-        let held = &self.held[start..];
-        let mut freed = None;
-        for k in grips {
-            if self.grips[k].touching && !held.contains(&(k as u32)) {
-                self.grips[k].touching = false;
-                freed = Some(std::mem::take(&mut self.grips[k].spring));
+    /// those of the grips that hold.
+    fn hand_over(&mut self, places: &mut [Place]) {
+        let mut freed = BTreeMap::new();
+        let mut held = self.held.iter().peekable();
+        for (k, grip) in self.grips.iter_mut().enumerate() {
+            let holds = held.next_if(|held| **held as usize == k).is_some();
+            if grip.touching && !holds {
+                grip.touching = false;
+                freed.insert(grip.sphere, std::mem::take(&mut grip.spring));
             }
         }
-        for (k, place) in held.iter().zip(places) {
+        for (k, place) in self.held.iter().zip(places) {
             let grip = &mut self.grips[*k as usize];
             if !grip.touching {
                 grip.touching = true;
-                place.spring = freed.take().unwrap_or_default();
+                place.spring = freed.remove(&grip.sphere).unwrap_or_default();
             }
         }
     }
+}
+
+/// The planes in the body's axes.
+#[inline(always)]
+fn seen_by_body(walls: &Walls, at: &Relative) -> [[f32x8; 4]; 4] {
+    std::array::from_fn(|k| {
+        let [x, y, z, from] = walls.map(|row| row[k]);
+        let normal = Vector3::new(x, y, z);
+        let n = at.rotation.tr_mul(&normal);
+        [n.x, n.y, n.z, from - normal.dot(&at.position)].map(|x| f32x8::splat(x as f32))
+    })
 }
