@@ -8,16 +8,16 @@ use nalgebra::Vector3;
 pub(super) struct Facet {
     corners: [Vector3<f64>; 3],
     normal: Vector3<f64>,
-    walls: Walls,
+    planes: Planes,
     patch: u32,
     /// Patches that meet each edge k → k+1 and each corner, this facet's own left out.
     edge_patches: [Vec<u32>; 3],
     corner_patches: [Vec<u32>; 3],
 }
 
-/// Four planes about a facet: its own and, upright on it, one along each edge k → k+1, which faces away from it. Rows: x, y
-/// and z of the planes' unit normals, and what a point of each plane gives with its normal, m.
-pub(super) type Walls = [[f64; 4]; 4];
+/// Four planes about a facet: its own and, upright on it, one along each edge k → k+1, which faces away from it. Rows:
+/// x, y and z of the planes' unit normals, and what a point of each plane gives with its normal, m.
+pub(super) type Planes = [[f64; 4]; 4];
 
 /// What two squares of distances may differ by in rounding: 1e-9 is far above it. Of facets as near as that, the nearest
 /// places decide.
@@ -69,14 +69,14 @@ impl Surface {
             let unit = |v: Vector3<f64>| v.try_normalize(0.0).unwrap_or_default();
             let normal = unit((corners[1] - corners[0]).cross(&(corners[2] - corners[0])));
             let away = |k: usize| unit((corners[(k + 1) % 3] - corners[k]).cross(&normal));
-            let planes = [(normal, 0), (away(0), 0), (away(1), 1), (away(2), 2)];
+            let sides = [(normal, 0), (away(0), 0), (away(1), 1), (away(2), 2)];
             Facet {
                 normal,
-                walls: [
-                    planes.map(|(n, _)| n.x),
-                    planes.map(|(n, _)| n.y),
-                    planes.map(|(n, _)| n.z),
-                    planes.map(|(n, k): (_, usize)| n.dot(&corners[k])),
+                planes: [
+                    sides.map(|(n, _)| n.x),
+                    sides.map(|(n, _)| n.y),
+                    sides.map(|(n, _)| n.z),
+                    sides.map(|(n, k): (_, usize)| n.dot(&corners[k])),
                 ],
                 corners,
                 patch,
@@ -96,15 +96,16 @@ impl Surface {
         }
     }
 
-    /// Planes that tell how far a facet is at least, see [`super::walls`]; of an unbounded plane only one side is free.
+    /// Planes that tell how far a facet is at least: √(h² + e²) with the height h over the first and the farthest way
+    /// e ≥ 0 past the others. Of an unbounded plane no point is over the first, and all in front are past the others.
     #[inline(always)]
-    pub(super) fn walls(&self, facet: u32) -> Walls {
+    pub(super) fn planes(&self, facet: u32) -> Planes {
         match self {
             Self::Plane(point, n) => {
                 let from = n.dot(point);
                 [[0.0, n.x, n.x, n.x], [0.0, n.y, n.y, n.y], [0.0, n.z, n.z, n.z], [0.0, from, from, from]]
             }
-            Self::Mesh(all) => all[facet as usize].walls,
+            Self::Mesh(all) => all[facet as usize].planes,
         }
     }
 
@@ -160,7 +161,7 @@ impl Facet {
     /// How far `p` is above the facet's plane, and how far at most past an edge, m: negative above its inside.
     #[inline(always)]
     fn over(&self, p: &Vector3<f64>) -> (f64, f64) {
-        let [x, y, z, from] = &self.walls;
+        let [x, y, z, from] = &self.planes;
         let mut ahead = [0.0; 4];
         for k in 0..4 {
             ahead[k] = x[k] * p.x + y[k] * p.y + z[k] * p.z - from[k];
@@ -210,5 +211,38 @@ impl Facet {
         }
         // Inside: along the normal, exactly.
         (self.normal * -self.normal.dot(&ap), &[])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::Part;
+    use approx::assert_relative_eq;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn the_nearest_place_is_that_of_the_nearest_facet() {
+        let vertices = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [1., 0., 1.], [0., 0., 1.]];
+        let mesh = SurfaceMesh {
+            vertices: vertices.map(Vector3::from).to_vec(),
+            // The last has no area.
+            triangles: vec![[0, 1, 2], [0, 2, 3], [0, 4, 1], [0, 5, 4], [3, 2, 2]],
+            parts: vec![Part::Wall; 5],
+        };
+        let surface = Surface::mesh(&mesh);
+        let Surface::Mesh(facets) = &surface else { unreachable!() };
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..10_000 {
+            let p = Vector3::from_fn(|_, _| random.random_range(-1.0..2.0));
+            let each: Vec<f64> = facets.iter().map(|f| f.closest(&p).0.norm()).collect();
+            for (facet, distance) in facets.iter().zip(&each) {
+                assert!(facet.least(&p).sqrt() <= distance * (1.0 + 1e-12));
+            }
+            let nearest = surface.nearest(&p, &[0, 1, 2, 3, 4]);
+            let least = each.into_iter().fold(f64::INFINITY, f64::min);
+            assert_relative_eq!(nearest.distance, least, max_relative = 1e-12);
+        }
     }
 }

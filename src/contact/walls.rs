@@ -10,7 +10,7 @@ use super::law::Spring;
 use super::lease::Lease;
 use super::pairs::{Scratch, Setting};
 use super::side::Side;
-use super::surface::{Nearest, Surface, Walls};
+use super::surface::{Nearest, Planes, Surface};
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
@@ -144,7 +144,7 @@ impl WallList {
         let mut nearest = f32x8::splat(lookout as f32);
         self.candidates.clear();
         for &f in near {
-            let planes = seen_by_body(&surface.walls(f), &at);
+            let planes = seen_by_body(&surface.planes(f), &at);
             for (k, &[x, y, z, radius]) in outline.eights.iter().enumerate() {
                 let [x, y, z, radius] = [x, y, z, radius].map(f32x8::new);
                 let [height, past @ ..] = planes.map(|[nx, ny, nz, from]| nx * x + ny * y + nz * z - from);
@@ -325,9 +325,9 @@ impl WallList {
 
 /// The planes in the body's axes.
 #[inline(always)]
-fn seen_by_body(walls: &Walls, at: &Relative) -> [[f32x8; 4]; 4] {
+fn seen_by_body(planes: &Planes, at: &Relative) -> [[f32x8; 4]; 4] {
     std::array::from_fn(|k| {
-        let [x, y, z, from] = walls.map(|row| row[k]);
+        let [x, y, z, from] = planes.map(|row| row[k]);
         let normal = Vector3::new(x, y, z);
         let n = at.rotation.tr_mul(&normal);
         [n.x, n.y, n.z, from - normal.dot(&at.position)].map(|x| f32x8::splat(x as f32))
