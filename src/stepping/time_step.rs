@@ -130,7 +130,8 @@ fn landing_frequency(shape: &TabletShape, mass: f64, modulus: f64, speed: f64) -
 /// (shape, material, mass) of every kind of body, each once.
 fn kinds(scene: &Scene) -> Vec<(usize, usize, f64)> {
     let batches = scene.batches.iter().map(|b| (b.shape, b.material, b.tablet_mass));
-    let mut kinds: Vec<_> = batches.chain(scene.bodies.iter().map(|b| (b.shape, b.material, b.mass))).collect();
+    let mut kinds: Vec<_> =
+        batches.chain(scene.bodies.iter().map(|b| (b.shape, b.material, b.mass))).collect();
     kinds.sort_unstable_by_key(|(shape, material, mass)| (*shape, *material, mass.to_bits()));
     kinds.dedup();
     kinds

@@ -1,14 +1,14 @@
-//! Which boxes overlap, for the cost of those that change.
+//! Which bodies are near each other, for the cost of those whose boxes change.
 
 use super::NearChanges;
 use rapier3d::parry::partitioning::Bvh;
 use rapier3d::prelude::Aabb;
 
-/// The boxes of bodies in Rapier's tree, and which of them overlap.
+/// The boxes of bodies in Rapier's tree, and which of them are near each other.
 #[derive(Clone, Default)]
 pub(super) struct Boxes {
     tree: Bvh,
-    /// Of each body the others whose boxes overlap its own, in any order.
+    /// Of each body the others that are near it, in any order.
     near: Vec<Vec<u32>>,
     /// Bodies whose boxes were put since the last call of [`Boxes::changes`].
     put: Vec<u32>,
@@ -24,15 +24,16 @@ impl Boxes {
         self.put.push(body);
     }
 
-    /// Which boxes overlap that did not when this was last called, and the other way round. The cost is that of the boxes
-    /// put since, however many others there are.
-    pub(super) fn changes(&mut self) -> NearChanges {
+    /// Which pairs of bodies are near each other that were not when this was last called, and the other way round: their
+    /// boxes overlap, and they `may_touch`. The cost is that of the boxes put since, however many others there are.
+    pub(super) fn changes(&mut self, may_touch: impl Fn(u32, u32) -> bool) -> NearChanges {
         let mut changes = NearChanges::default();
         let mut found = Vec::new();
         for body in self.put.drain(..) {
             let leaf = self.tree.leaf_node(body).expect("its box was put");
             found.clear();
-            found.extend(self.tree.leaves(|node| node.intersects(leaf)).filter(|other| *other != body));
+            let others = self.tree.leaves(|node| node.intersects(leaf));
+            found.extend(others.filter(|other| *other != body && may_touch(body, *other)));
             let near = &self.near[body as usize];
             let pair = |other: &u32| (body.min(*other), body.max(*other));
             changes.parted.extend(near.iter().filter(|other| !found.contains(other)).map(pair));
@@ -76,7 +77,7 @@ mod tests {
                     boxes.put(body, bound);
                     bounds.insert(body, bound);
                 }
-                let changes = boxes.changes();
+                let changes = boxes.changes(|_, _| true);
                 for pairs in [&changes.parted, &changes.met] {
                     prop_assert!(pairs.is_sorted_by(|x, y| x < y));
                 }
