@@ -39,8 +39,7 @@ impl Simulation {
             let travels = self.bodies.iter().zip(&self.motions).map(|(body, motion)| {
                 (travel(&motion.velocity, &motion.spin, body.reach, dt), body.most_travel)
             });
-            // A NaN is not within bounds either.
-            let astray = travels.enumerate().find(|(_, (travel, most))| !(travel <= most));
+            let astray = travels.enumerate().find(|(_, (travel, most))| travel.is_nan() || travel > most);
             if let Some((body, (travel, most))) = astray {
                 let contact = DeepestContact(self.field.deepest());
                 let ratio = MOST_TRAVEL * travel / most;

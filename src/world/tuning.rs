@@ -6,11 +6,11 @@ pub(super) const LENGTH_UNIT: f32 = 0.01;
 
 /// Time that a body's margin should last at its present speed against the carrier, s: the box of a fast body is widened
 /// more. Larger values give more pairs to watch, smaller ones more boxes to put in anew.
-pub(super) const HORIZON: f64 = 5e-3;
+pub(super) const HORIZON: f64 = 1e-2;
 
 /// Least and most margin of a body, as a share of its bounding radius. A smaller least one puts the boxes of a
 /// slow bed in anew more often.
-pub(super) const MARGIN: (f64, f64) = (0.1, 1.0);
+pub(super) const MARGIN: (f64, f64) = (0.2, 1.0);
 
 /// A body that has used this share of its margin gets a new box: what is left would not be worth a look at every step.
 pub(super) const SPENT: f64 = 0.95;
