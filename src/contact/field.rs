@@ -178,7 +178,6 @@ impl ContactField {
             motions,
             frames: &self.frames,
             odometers: world.odometers(),
-            pace: world.pace(),
             materials: self.materials,
             skin: self.skin,
             dt,

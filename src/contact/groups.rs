@@ -11,8 +11,6 @@ const BODIES: u32 = 16;
 /// The pairs (a, b) of some bodies a.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Group {
-    /// Distance that any body can have moved when each of `pairs` must be looked at, m.
-    pub wakes: Vec<f64>,
     /// In order.
     pub pairs: Vec<Pair>,
     /// The lists of `pairs`, in the same order.
@@ -36,7 +34,6 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
         if let Some(group) = groups.get_mut(group(parted[0].0)) {
             for key in parted {
                 if let Ok(at) = group.pairs.binary_search_by_key(key, Pair::key) {
-                    group.wakes.remove(at);
                     group.pairs.remove(at);
                     group.lists.remove(at);
                 }
@@ -48,7 +45,6 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
         let group = &mut groups[group(met[0].0)];
         for key in met {
             if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
-                group.wakes.insert(at, f64::NEG_INFINITY);
                 group.pairs.insert(at, Pair::new(*key));
                 group.lists.insert(at, PairList::new());
             }

@@ -2,8 +2,8 @@
 //!
 //! Most of the bed turns as a solid, so neighbours hardly move against each other. A list holds the sphere pairs with a
 //! gap below a skin and stays complete until the bodies' *relative* motion has used the skin up. Tests of growing cost
-//! watch over that: how far any body can have gone; the sum of both odometers (motion against the turning drum); the
-//! exact relative displacement since the list was made; a new list.
+//! watch over that: the sum of both odometers (motion against the turning drum); the exact relative displacement since the
+//! list was made; a new list.
 //!
 //! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
@@ -47,8 +47,6 @@ pub(super) struct Setting<'a> {
     pub frames: &'a [Frame],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
-    /// Distance that any body can have moved so far, m.
-    pub pace: f64,
     pub materials: usize,
     pub skin: f64,
     pub dt: f64,
@@ -106,10 +104,10 @@ impl Pair {
         (self.a, self.b)
     }
 
-    /// What the bodies may move until the list may lack something, m; not positive when it may.
+    /// Whether the bodies have moved so far that the list may lack something.
     #[inline]
-    pub(super) fn left(&self, odometers: &[f64]) -> f64 {
-        self.mark - (odometers[self.a as usize] + odometers[self.b as usize])
+    pub(super) fn spent(&self, odometers: &[f64]) -> bool {
+        self.mark <= odometers[self.a as usize] + odometers[self.b as usize]
     }
 }
 
@@ -118,8 +116,8 @@ impl PairList {
         Self { listed: Lease::NONE, axis: Vector3::zeros() }
     }
 
-    /// Sees whether the list of `pair` is still complete, and makes it anew if not. Returns what the bodies may move from
-    /// now on, m, and whether the list is new.
+    /// Sees whether the list of `pair` is still complete, and makes it anew if not. Returns whether the
+    /// list is new.
     #[inline(always)]
     pub(super) fn renew(
         &mut self,
@@ -127,7 +125,7 @@ impl PairList {
         setting: &Setting<'_>,
         scratch: &mut Scratch,
         links: &mut LinkDesk,
-    ) -> (f64, bool) {
+    ) -> bool {
         let (a, b) = (pair.a as usize, pair.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
@@ -141,7 +139,7 @@ impl PairList {
             left = self.listed.allowance;
         }
         pair.mark = setting.odometers[a] + setting.odometers[b] + left;
-        (left, anew)
+        anew
     }
 
     /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.

@@ -7,7 +7,7 @@ use super::energy::Press;
 use super::groups::Group;
 use super::law::PairLaw;
 use super::links::LinkDesk;
-use super::pairs::{Scratch, Setting};
+use super::pairs::{Pair, Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
@@ -66,20 +66,15 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     fn call(self) {
         let Self { setting, .. } = self;
         let Desk { scratch, batch, links } = self.desk;
-        let Group { wakes, pairs, lists, links: kept, findings } = self.group;
+        let Group { pairs, lists, links: kept, findings } = self.group;
         findings.clear();
         std::mem::swap(&mut links.links, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
-        let count = find(&mut alert, wakes, setting.pace);
+        let count = find(&mut alert, pairs, setting.odometers);
         for &k in &alert[..count] {
             let k = k as usize;
-            let mut left = pairs[k].left(setting.odometers);
-            if left <= 0.0 {
-                let anew;
-                (left, anew) = lists[k].renew(&mut pairs[k], setting, scratch, links);
-                findings.rebuilt += u32::from(anew);
-            }
-            wakes[k] = setting.pace + 0.5 * left;
+            let anew = lists[k].renew(&mut pairs[k], setting, scratch, links);
+            findings.rebuilt += u32::from(anew);
         }
         scratch.alert = alert;
         links.replaced();
@@ -112,17 +107,17 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     }
 }
 
-/// Puts the numbers of the `wakes` before `pace` first in `found` and returns how many there are, without a branch for
-/// each: none could be foreseen.
+/// Puts the numbers of the pairs whose lists may lack something first in `found` and returns how many there are, without
+/// a branch for each: none could be foreseen.
 #[inline(always)]
-fn find(found: &mut Vec<u32>, wakes: &[f64], pace: f64) -> usize {
-    if found.len() < wakes.len() {
-        found.resize(wakes.len(), 0);
+fn find(found: &mut Vec<u32>, pairs: &[Pair], odometers: &[f64]) -> usize {
+    if found.len() < pairs.len() {
+        found.resize(pairs.len(), 0);
     }
     let mut count = 0;
-    for (k, wake) in wakes.iter().enumerate() {
+    for (k, pair) in pairs.iter().enumerate() {
         found[count] = k as u32;
-        count += usize::from(*wake < pace);
+        count += usize::from(pair.spent(odometers));
     }
     count
 }

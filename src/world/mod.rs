@@ -39,8 +39,6 @@ pub struct World {
     marks: Vec<f64>,
     /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
     odometers: Vec<f64>,
-    /// Distance that any of them can have moved so far, m.
-    pace: f64,
 }
 
 /// What a search changes: pairs of bodies, smaller index first, sorted.
@@ -92,7 +90,6 @@ impl Clone for World {
             tracks: self.tracks.clone(),
             marks: self.marks.clone(),
             odometers: self.odometers.clone(),
-            pace: self.pace,
             ..Self::new()
         }
     }
@@ -111,7 +108,6 @@ impl World {
             tracks: Vec::new(),
             marks: Vec::new(),
             odometers: Vec::new(),
-            pace: 0.0,
         }
     }
 
@@ -163,18 +159,9 @@ impl World {
 
     /// Tells the world how far each tablet's farthest sphere centre went against the carrier in a step, m.
     pub fn travel(&mut self, paths: &[f64]) {
-        let mut farthest = 0.0_f64;
         for (odometer, path) in self.odometers.iter_mut().zip(paths) {
-            let path = tuning::SAFETY * path;
-            *odometer += path;
-            farthest = farthest.max(path);
+            *odometer += tuning::SAFETY * path;
         }
-        self.pace += farthest;
-    }
-
-    /// Distance that any tablet's farthest sphere centre can have moved against the carrier so far, m.
-    pub fn pace(&self) -> f64 {
-        self.pace
     }
 
     /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
