@@ -173,8 +173,8 @@ impl World {
     /// be called at every step, since it sees to it that no body uses up its margin.
     ///
     /// The tree learns the boxes of bodies that have used most of their margin and tells which others they are near and
-    /// which no longer. Of those that met the hooks are asked at once: Rapier's narrow phase would ask them again for every pair of
-    /// a moved body, and be answered that there is nothing to do.
+    /// which no longer. Of those that met the hooks are asked at once: Rapier's narrow phase would ask them again for
+    /// every pair of a moved body, and be answered that there is nothing to do.
     pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> NearChanges {
         for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
             self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
