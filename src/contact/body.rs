@@ -17,6 +17,9 @@ pub(super) struct Ball {
 /// Centres x, y, z and radii of eight spheres, m: in f32, which is enough to tell what cannot touch.
 pub(super) type Eight = [[f32; 8]; 4];
 
+/// Error of a distance or gap measured in f32, as a share of the lengths it comes from.
+pub(super) const ROUNDING: f64 = 1e-6;
+
 /// A clump prepared for contact.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outline {

@@ -9,7 +9,7 @@
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
 use super::batch::Place;
-use super::body::{Ball, BodyConstants, Eight, Outline};
+use super::body::{Ball, BodyConstants, Eight, Outline, ROUNDING};
 use super::extents::Extents;
 use super::frames::Frame;
 use super::lease::Lease;
@@ -256,10 +256,10 @@ impl Candidates {
     }
 }
 
-/// Error of a distance measured in f32, m: 1e-6 of the larger body.
+/// Error of a distance measured in f32, m.
 #[inline(always)]
 fn rounding(a: &Outline, b: &Outline) -> f32 {
-    1e-6 * a.bounding_radius.max(b.bounding_radius) as f32
+    ROUNDING as f32 * a.bounding_radius.max(b.bounding_radius) as f32
 }
 
 /// Skin of a new list, m: wider for bodies that move fast against each other.

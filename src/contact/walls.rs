@@ -5,7 +5,7 @@
 //! over to the patch that takes the sphere on. In a concave corner both patches push.
 
 use super::batch::{Batch, Place};
-use super::body::{Ball, Outline};
+use super::body::{Ball, Outline, ROUNDING};
 use super::law::Spring;
 use super::lease::Lease;
 use super::pairs::{Scratch, Setting};
@@ -82,8 +82,6 @@ pub(super) struct Boundary {
 const WIDE: f64 = 6.0;
 /// How far a body that has no candidate looks for walls, in skins: one far from all of them rests long.
 const LOOKOUT: f64 = 24.0;
-/// Error of a gap measured in f32, as a share of the distances it is measured from.
-const ROUNDING: f64 = 1e-6;
 
 impl WallList {
     pub(super) fn new() -> Self {

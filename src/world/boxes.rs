@@ -24,6 +24,11 @@ impl Boxes {
         self.put.push(body);
     }
 
+    /// Whether no box was put since the last call of [`Boxes::changes`].
+    pub(super) fn unchanged(&self) -> bool {
+        self.put.is_empty()
+    }
+
     /// Which pairs of bodies are near each other that were not when this was last called, and the other way round: their
     /// boxes overlap, and they `may_touch`. The cost is that of the boxes put since, however many others there are.
     pub(super) fn changes(&mut self, may_touch: impl Fn(u32, u32) -> bool) -> NearChanges {

@@ -176,11 +176,8 @@ impl World {
     /// which no longer. Of those that met the hooks are asked at once: Rapier's narrow phase would ask them again for
     /// every pair of a moved body, and be answered that there is nothing to do.
     pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> NearChanges {
-        for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
-            self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
-        }
         for (k, (body, collider)) in self.tablets.iter().enumerate() {
-            // Not so for a NaN, too.
+            // False for a NaN.
             if self.odometers[k] <= self.marks[k] {
                 continue;
             }
@@ -203,6 +200,12 @@ impl World {
             track.known = now;
             track.margin = margin - tuning::ROUNDING;
             self.marks[k] = self.odometers[k] + track.margin;
+        }
+        if self.boxes.unchanged() {
+            return NearChanges::default();
+        }
+        for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
+            self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
         }
         let tracks = &self.tracks;
         let may_touch = |a: u32, b: u32| tracks[a as usize].may_touch(&tracks[b as usize]);
