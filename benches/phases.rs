@@ -31,7 +31,7 @@ impl Bed {
         simulation.settle(&mut |_| true).expect("it runs");
         let motions = simulation.states().into_iter().map(|state| {
             let rotation = state.orientation.to_rotation_matrix().into_inner();
-            Motion::steady(state.position, rotation, state.velocity, state.spin)
+            Motion { position: state.position, rotation, velocity: state.velocity, spin: state.spin }
         });
         let drum = Motion { spin: Vector3::z() * 2.303_835, ..Motion::at_rest() };
         Self { motions: motions.collect(), drum, simulation, scene }

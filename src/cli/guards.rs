@@ -11,7 +11,7 @@ const FEWEST_STEPS: f64 = 8.0;
 const FEW_STEPS: f64 = 20.0;
 /// The same for clumps, of which several spheres touch at once: beds of 50-sphere tablets explode within a second at 15 steps
 /// in a contact of one sphere, within seconds at 20, and some of a softer material at 30 (docs/accuracy.md).
-const FEW_STEPS_OF_CLUMPS: f64 = 40.0;
+const FEW_STEPS_OF_CLUMPS: f64 = 25.0;
 /// Step times the frequency of the stiffest landing above which velocity Verlet is unstable.
 const UNSTABLE: f64 = 2.0;
 /// Steps of a run that nobody asks for by intention.

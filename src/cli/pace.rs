@@ -31,7 +31,7 @@ fn law_seconds(scene: &Scene) -> f64 {
     let law = PairLaw::new(material, material, scene.pairs.get(0, 0), scene.contact);
     let mut spring = Spring::default();
     let velocity = Vector3::new(-0.1, 0.1, 0.0);
-    let touch = Touch { normal: Vector3::x(), overlap: 1e-5, velocity, mean_velocity: velocity, twirl: 1.0 };
+    let touch = Touch { normal: Vector3::x(), overlap: 1e-5, velocity, twirl: 1.0 };
     let start = Instant::now();
     for _ in 0..TRIALS {
         let dashpots = law.dashpots(1e-4, 1e-3);

@@ -71,10 +71,7 @@ pub(super) struct Shared {
     /// Velocity of b against a at the contact point is `drift + turn × arm`.
     drift: Vector3<f64>,
     turn: Vector3<f64>,
-    /// The same for the mean velocity of the step.
-    mean_drift: Vector3<f64>,
-    mean_turn: Vector3<f64>,
-    /// Mean spin of the two bodies in the step.
+    /// Mean spin of the two bodies.
     spin: Vector3<f64>,
 }
 
@@ -133,9 +130,7 @@ impl Batch {
             mass: 1.0 / (side_a.inverse_mass + side_b.inverse_mass),
             drift: mb.velocity - ma.velocity - mb.spin.cross(&offset),
             turn: mb.spin - ma.spin,
-            mean_drift: mb.mean_velocity - ma.mean_velocity - mb.mean_spin.cross(&offset),
-            mean_turn: mb.mean_spin - ma.mean_spin,
-            spin: (ma.mean_spin + mb.mean_spin) * 0.5,
+            spin: (ma.spin + mb.spin) * 0.5,
         }
     }
 
@@ -160,8 +155,6 @@ impl Batch {
         block.mass[k] = shared.mass;
         set(&mut block.drift, k, &shared.drift);
         set(&mut block.turn, k, &shared.turn);
-        set(&mut block.mean_drift, k, &shared.mean_drift);
-        set(&mut block.mean_turn, k, &shared.mean_turn);
         set(&mut block.spin, k, &shared.spin);
         set(&mut block.stretch, k, &place.spring.stretch);
         block.stretch_radius[k] = place.spring.radius;
@@ -181,7 +174,7 @@ impl Batch {
     ) {
         let blocks = &mut self.blocks[..self.used];
         for block in blocks.iter_mut() {
-            block.place(&laws[block.law], rule.inside);
+            block.place(&laws[block.law], rule);
         }
         for meeting in &self.meetings {
             if rule.damping == DampingMass::Contact || meeting.count >= CROWD {
@@ -231,7 +224,7 @@ impl Meeting {
             if let Some(omega) = frequency(felt, &sides(self.a, self.b), law) {
                 for (at, k) in self.lanes() {
                     let Dashpots { normal, tangential } =
-                        law.dashpots_at(blocks[at].contact_radius[k], omega);
+                        law.dashpots_at(blocks[at].contact_radius[k], omega, rule.dt);
                     (blocks[at].dashpot[0][k], blocks[at].dashpot[1][k]) = (normal, tangential);
                 }
             }

@@ -1,5 +1,6 @@
 //! Eight contacts side by side: every lane is computed by the same operations.
 
+use super::batch::Rule;
 use super::energy::Press;
 use super::law::{Dashpots, PairLaw, Spring, Touch};
 use super::side::Felt;
@@ -23,8 +24,6 @@ pub(super) struct Block {
     pub mass: Lanes,
     pub drift: Lanes3,
     pub turn: Lanes3,
-    pub mean_drift: Lanes3,
-    pub mean_turn: Lanes3,
     pub spin: Lanes3,
     pub stretch: Lanes3,
     pub stretch_radius: Lanes,
@@ -53,8 +52,6 @@ pub(super) const EMPTY: Block = Block {
     mass: ONE,
     drift: ZERO3,
     turn: ZERO3,
-    mean_drift: ZERO3,
-    mean_turn: ZERO3,
     spin: ZERO3,
     stretch: ZERO3,
     stretch_radius: ONE,
@@ -80,16 +77,17 @@ pub(super) fn set(lanes: &mut Lanes3, k: usize, v: &Vector3<f64>) {
 impl Block {
     /// Where and how the contacts touch, and the dashpots of each by itself.
     #[inline(always)]
-    pub(super) fn place(&mut self, law: &PairLaw, inside: f64) {
+    pub(super) fn place(&mut self, law: &PairLaw, rule: &Rule) {
         for k in 0..LANES {
             let between = get(&self.between, k);
             let distance = between.norm();
             let normal = between / distance;
             let overlap = self.reach[k] - distance;
             let contact_radius = (overlap / self.curvature[k]).sqrt();
-            let arm = get(&self.arm, k) + normal * (self.radius[k] - inside * overlap);
+            let arm = get(&self.arm, k) + normal * (self.radius[k] - rule.inside * overlap);
             let velocity = get(&self.drift, k) + get(&self.turn, k).cross(&arm);
-            let Dashpots { normal: across, tangential: along } = law.dashpots(contact_radius, self.mass[k]);
+            let Dashpots { normal: across, tangential: along } =
+                law.dashpots(contact_radius, self.mass[k]).delayed(rule.dt / self.mass[k]);
             set(&mut self.arm, k, &arm);
             set(&mut self.normal, k, &normal);
             set(&mut self.velocity, k, &velocity);
@@ -122,7 +120,6 @@ impl Block {
                 normal,
                 overlap: self.overlap[k],
                 velocity: get(&self.velocity, k),
-                mean_velocity: self.mean_velocity(k),
                 twirl: get(&self.spin, k).dot(&normal),
             };
             let dashpots = Dashpots { normal: self.dashpot[0][k], tangential: self.dashpot[1][k] };
@@ -136,12 +133,6 @@ impl Block {
         }
     }
 
-    /// Of b against a at the contact point in the step, m/s.
-    #[inline(always)]
-    fn mean_velocity(&self, k: usize) -> Vector3<f64> {
-        get(&self.mean_drift, k) + get(&self.mean_turn, k).cross(&get(&self.arm, k))
-    }
-
     #[inline(always)]
     pub(super) fn spring(&self, k: usize) -> Spring {
         Spring { stretch: get(&self.stretch, k), radius: self.stretch_radius[k] }
@@ -149,7 +140,7 @@ impl Block {
 
     pub(super) fn pressed(&self, k: usize, laws: &[PairLaw], dt: f64) -> Press {
         let (law, spring, normal) = (&laws[self.law], self.spring(k), get(&self.normal, k));
-        let (force, velocity) = (get(&self.force, k), self.mean_velocity(k));
+        let (force, velocity) = (get(&self.force, k), get(&self.velocity, k));
         let slip = (velocity - normal * velocity.dot(&normal)) * dt;
         let spring_force = law.spring_force(&spring);
         let across = normal * force.dot(&normal);

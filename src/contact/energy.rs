@@ -199,7 +199,7 @@ mod tests {
             for k in 0..4000 {
                 let velocity = Vector3::x() * 0.05 * (f64::from(k) * 2e-3).cos();
                 let before = spring;
-                let touch = Touch { normal, overlap, velocity, mean_velocity: velocity, twirl: 0.0 };
+                let touch = Touch { normal, overlap, velocity, twirl: 0.0 };
                 let dashpots = Dashpots { normal: 0.0, tangential: 0.0 };
                 let force = law.force(&touch, radius, dashpots, dt, &mut spring);
                 let press = Press {

@@ -53,10 +53,8 @@ pub struct Touch {
     pub normal: Vector3<f64>,
     /// Overlap δ, m.
     pub overlap: f64,
-    /// Velocity of b against a at the contact point, m/s.
+    /// Velocity of b against a at the contact point, mean of the step that led here, m/s.
     pub velocity: Vector3<f64>,
-    /// The same on the mean of the step that led here, m/s.
-    pub mean_velocity: Vector3<f64>,
     /// Mean angular velocity of the two bodies about n in that step, rad/s: the spring turns with it.
     pub twirl: f64,
 }
@@ -135,11 +133,13 @@ impl PairLaw {
 
     /// Dashpots proportional to the stiffnesses so that a motion of angular frequency `omega`, rad/s, is damped by β.
     ///
-    /// Derived here: a single contact has ω² = S_n/m*, for which c = 2 √(5/6) β √(S_n m*) = (2 √(5/6) β/ω) S_n.
+    /// Derived here: a single contact has ω² = S_n/m*, for which c = 2 √(5/6) β √(S_n m*) = (2 √(5/6) β/ω) S_n. `dt` is the
+    /// step of the velocities they meet, s ([`Dashpots::delayed`]; c/m* is 2 √(5/6) β ω).
     #[inline]
-    pub fn dashpots_at(&self, contact_radius: f64, omega: f64) -> Dashpots {
+    pub fn dashpots_at(&self, contact_radius: f64, omega: f64, dt: f64) -> Dashpots {
         let (sn, st) = (self.normal_stiffness(contact_radius), self.tangential_stiffness(contact_radius));
-        let factor = DASHPOT * self.damping / omega;
+        let damped = DASHPOT * self.damping;
+        let factor = damped / omega * delay(damped * omega * dt);
         Dashpots { normal: factor * sn, tangential: factor * (sn * st).sqrt() }
     }
 
@@ -164,7 +164,7 @@ impl PairLaw {
         let stiffness = self.tangential_stiffness(contact_radius);
         // The spring follows the places of the bodies. What touches for the first time began to, on average, half a step ago.
         let since = if spring.radius > 0.0 { dt } else { 0.5 * dt };
-        let moved = (touch.mean_velocity - n * touch.mean_velocity.dot(&n)) * since;
+        let moved = slip * since;
         let mut stretch = carried(&spring.stretch, &n, touch.twirl * dt);
         let (scale, moved) = match self.tangential {
             TangentialLaw::Total => (stiffness, moved),
@@ -193,6 +193,31 @@ impl PairLaw {
             TangentialLaw::Incremental | TangentialLaw::Rescaled => -spring.stretch,
         }
     }
+}
+
+/// A sphere answers a force on its rim 1 + m r²/I = 7/2 times as much as one through its centre.
+const RIM: f64 = 3.5;
+
+impl Dashpots {
+    /// The dashpots that damp as much as these when they meet velocities half a step of `dt` late; `dt_by_mass` is
+    /// dt over the reduced mass, s/kg.
+    ///
+    /// Derived here: on a late velocity v − a dt/2 a dashpot c' acts as c' on v, with the mass lowered from m to m − c' dt/2.
+    /// The damping ratio stays that of c if c'² = c² (1 − c' dt/2m), or c'/c = √(1 + q²/16) − q/4 with q = c dt/m.
+    #[inline(always)]
+    pub(super) fn delayed(self, dt_by_mass: f64) -> Self {
+        let Self { normal, tangential } = self;
+        Self {
+            normal: normal * delay(normal * dt_by_mass),
+            tangential: tangential * delay(RIM * tangential * dt_by_mass),
+        }
+    }
+}
+
+/// √(1 + q²/16) − q/4 but for q⁴/2048.
+#[inline(always)]
+fn delay(q: f64) -> f64 {
+    1.0 - q * (0.25 - q / 32.0)
 }
 
 /// β = −ln e / √(ln² e + π²); e = 0 gives the limit 1.

@@ -48,12 +48,9 @@ struct Eight {
     /// The same as a quaternion.
     turned: [Lanes; 4],
     /// The same over the step, world axes, rad/s.
-    mean_spin: Lanes3,
-    /// At the end of the step, as far as known before its forces.
-    next_velocity: Lanes3,
-    next_spin: Lanes3,
+    spin: Lanes3,
     path: Lanes,
-    /// 1 for a body that will go too far in the next step or is nowhere, else 0.
+    /// 1 for a body that goes too far in the step or is nowhere, else 0.
     astray: Lanes,
 }
 
@@ -93,7 +90,7 @@ impl pulp::NullaryFnOnce for Drift<'_> {
             eight.kick(0.5 * dt);
             eight.find_turn(&carrier, dt);
             eight.mend_large_turns();
-            eight.arrive(dt);
+            eight.arrive();
             for (k, ((body, motion), path)) in bodies.iter_mut().zip(motions).zip(paths).enumerate() {
                 eight.write(k, body, motion);
                 *path = eight.path[k];
@@ -150,10 +147,12 @@ impl Eight {
             let w1 = m1.component_div(&inertia);
             let w2 = (m1.cross(&w) + m.cross(&w1)).component_div(&inertia);
             let turn = (w + (w1 + (w2 / 3.0 + w.cross(&w1) / 6.0) * dt) * (0.5 * dt)) * dt;
-            let mean_spin = into_world(&axes, &turn) / dt;
-            set(&mut self.mean_spin, k, &mean_spin);
+            let spin = into_world(&axes, &turn) / dt;
+            set(&mut self.spin, k, &spin);
             set(&mut self.turn, k, &turn);
-            self.path[k] = moved.norm() + (mean_spin - carrier).norm() * dt * self.reach[k];
+            self.path[k] = moved.norm() + (spin - carrier).norm() * dt * self.reach[k];
+            let travel = travel(&velocity, &spin, self.reach[k], dt);
+            self.astray[k] = if travel <= self.most_travel[k] { 0.0 } else { 1.0 };
 
             // By series, so that no library sine enters: truncation below h¹⁰/10! < 3e-17 for half angles h < 0.1.
             let h2 = 0.25 * turn.norm_squared();
@@ -178,9 +177,9 @@ impl Eight {
         }
     }
 
-    /// Turns the bodies and predicts their velocities at the end of the step for the force evaluation there.
+    /// Turns the bodies.
     #[inline(always)]
-    fn arrive(&mut self, dt: f64) {
+    fn arrive(&mut self) {
         for k in 0..LANES {
             let (ai, aj, ak, aw) = four(&self.orientation, k);
             let (bi, bj, bk, bw) = four(&self.turned, k);
@@ -192,14 +191,6 @@ impl Eight {
             let scale = 1.5 - 0.5 * (i * i + j * j + z * z + w * w);
             set_four(&mut self.orientation, k, (i * scale, j * scale, z * scale, w * scale));
             let axes = axes(four(&self.orientation, k));
-            let velocity = get(&self.velocity, k) + get(&self.force, k) * (0.5 * dt / self.mass[k]);
-            let momentum = get(&self.momentum, k) + get(&self.torque, k) * (0.5 * dt);
-            let spin = into_body(&axes, &momentum).component_div(&get(&self.inertia, k));
-            let spin = into_world(&axes, &spin);
-            let travel = travel(&velocity, &spin, self.reach[k], dt);
-            self.astray[k] = if travel <= self.most_travel[k] { 0.0 } else { 1.0 };
-            set(&mut self.next_velocity, k, &velocity);
-            set(&mut self.next_spin, k, &spin);
             set(&mut self.axes[0], k, &axes[0]);
             set(&mut self.axes[1], k, &axes[1]);
             set(&mut self.axes[2], k, &axes[2]);
@@ -219,10 +210,8 @@ impl Eight {
                 get(&self.axes[1], k),
                 get(&self.axes[2], k),
             ]),
-            velocity: get(&self.next_velocity, k),
-            spin: get(&self.next_spin, k),
-            mean_velocity: get(&self.velocity, k),
-            mean_spin: get(&self.mean_spin, k),
+            velocity: get(&self.velocity, k),
+            spin: get(&self.spin, k),
         };
     }
 }

@@ -180,7 +180,8 @@ impl Simulation {
     pub(super) fn add_body(&mut self, shape: usize, material: usize, mass: f64, state: &BodyState) {
         let inertia = self.shapes[shape].inertia_per_mass * mass;
         let rotation = state.orientation.to_rotation_matrix().into_inner();
-        let motion = Motion::steady(state.position, rotation, state.velocity, state.spin);
+        let BodyState { position, velocity, spin, .. } = *state;
+        let motion = Motion { position, rotation, velocity, spin };
         self.world.add_tablet(&self.shapes[shape].clump, mass, &inertia, &motion);
         self.field.add_body(shape, material, mass, &inertia);
         let clump = &self.shapes[shape].clump;
@@ -269,7 +270,7 @@ impl Simulation {
         let time = self.clock();
         for (motion, (velocity, spin)) in self.surfaces.iter_mut().zip(&self.drives) {
             let rotation = Rotation3::new(spin * time).into_inner();
-            *motion = Motion::steady(velocity * time, rotation, *velocity, *spin);
+            *motion = Motion { position: velocity * time, rotation, velocity: *velocity, spin: *spin };
         }
     }
 

@@ -235,7 +235,8 @@ impl ImpulseWorld {
             let [w, x, y, z] = [q.w, q.x, q.y, q.z].map(f64::from);
             let orientation = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
             let rotation = orientation.to_rotation_matrix().into_inner();
-            let motion = Motion::steady(vector(at), rotation, vector(body.linvel()), vector(body.angvel()));
+            let (velocity, spin) = (vector(body.linvel()), vector(body.angvel()));
+            let motion = Motion { position: vector(at), rotation, velocity, spin };
             (orientation, motion)
         })
     }

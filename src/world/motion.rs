@@ -1,4 +1,4 @@
-//! Pose and velocity of a body, as contact needs them at one time level.
+//! Pose and velocity of a body, as contact needs them.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,30 +10,21 @@ pub struct Motion {
     pub position: Vector3<f64>,
     /// Turns body axes to world axes.
     pub rotation: Matrix3<f64>,
-    /// Velocity of the centre of mass, m/s.
-    pub velocity: Vector3<f64>,
-    /// Angular velocity, world axes, rad/s.
-    pub spin: Vector3<f64>,
     /// Mean velocity of the centre of mass in the step that led here, m/s.
-    pub mean_velocity: Vector3<f64>,
-    /// Mean angular velocity of that step, rad/s.
-    pub mean_spin: Vector3<f64>,
+    pub velocity: Vector3<f64>,
+    /// Mean angular velocity of that step, world axes, rad/s.
+    pub spin: Vector3<f64>,
 }
 
 impl Motion {
-    /// A motion that was as it is now in the step before, too.
-    pub fn steady(
-        position: Vector3<f64>,
-        rotation: Matrix3<f64>,
-        velocity: Vector3<f64>,
-        spin: Vector3<f64>,
-    ) -> Self {
-        Self { position, rotation, velocity, spin, mean_velocity: velocity, mean_spin: spin }
-    }
-
     /// At rest at the origin with body axes along world axes.
     pub fn at_rest() -> Self {
-        Self::steady(Vector3::zeros(), Matrix3::identity(), Vector3::zeros(), Vector3::zeros())
+        Self {
+            position: Vector3::zeros(),
+            rotation: Matrix3::identity(),
+            velocity: Vector3::zeros(),
+            spin: Vector3::zeros(),
+        }
     }
 
     /// Velocity of the body's point at `arm` from its centre of mass (world axes), m/s.

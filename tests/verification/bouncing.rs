@@ -1,7 +1,8 @@
-//! V06 and the drop of V09: a ball bounces. Heights h e^(2n), all bounces over at √(2h/g)(1 + e)/(1 − e); at e = 1 it
-//! keeps its height. Elementary mechanics of instant bounces; tolerance 1 %: a contact lasts 0.2 % of the first fall, and
-//! e is that of 100 steps per contact. Elastic: 1e-4 after 16 bounces, no trend (MFiX reports +0.094 % with
-//! Adams-Bashforth).
+//! V06 and the drop of V09: a ball bounces. Instant bounces reach the heights h e^(2n), the last is over at
+//! √(2h/g)(1 + e)/(1 − e); a contact lasts 0.2 % of the first fall, and gravity in it, the more the slower the ball,
+//! takes another 0.16, 0.52 and 1.36 % of the heights (separate integrator, 6400 steps per contact). Tolerance for these
+//! 0.5 %, 100 steps per contact; for the end 1 %. At e = 1 it keeps its height: 1e-4 after 16 bounces, no trend (MFiX reports
+//! +0.094 % with Adams-Bashforth).
 
 use super::support::{near, scene, set, watch};
 use pancoat::stepping::BodyState;
@@ -15,8 +16,8 @@ fn summits(set: &[String]) -> Vec<f64> {
 
 #[test]
 fn heights_fall_by_the_square_of_e() {
-    for (n, height) in (1..=3).zip(summits(&[])) {
-        near(height, 0.1 * 0.25_f64.powi(n), 1e-2, "height");
+    for (expected, height) in [24.960e-3, 6.2173e-3, 1.5412e-3].into_iter().zip(summits(&[])) {
+        near(height, expected, 5e-3, "height");
     }
 }
 

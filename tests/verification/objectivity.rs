@@ -53,13 +53,7 @@ fn a_turning_contact_keeps_its_force() {
             let turned = Rotation3::new(axis * (angle * f64::from(k)));
             let normal = turned * Vector3::y();
             let twirl = axis.dot(&normal) * angle / dt;
-            let touch = Touch {
-                normal,
-                overlap: 1e-5,
-                velocity: Vector3::zeros(),
-                mean_velocity: Vector3::zeros(),
-                twirl,
-            };
+            let touch = Touch { normal, overlap: 1e-5, velocity: Vector3::zeros(), twirl };
             law.force(&touch, 1e-4, none, dt, &mut spring);
         }
         let expected = Rotation3::new(axis * std::f64::consts::FRAC_PI_2) * start;

@@ -139,8 +139,7 @@ impl Single {
             // The surface moves against the sphere; n points from the sphere to the surface.
             let at_contact = v + Vector3::new(0.0, 0.0, w).cross(&Vector3::new(0.0, -self.radius, 0.0));
             let velocity = -at_contact;
-            let touch =
-                Touch { normal: -Vector3::y(), overlap, velocity, mean_velocity: velocity, twirl: 0.0 };
+            let touch = Touch { normal: -Vector3::y(), overlap, velocity, twirl: 0.0 };
             let Dashpots { normal, tangential } = self.law.dashpots(radius, self.mass);
             let dashpots = Dashpots { normal, tangential: tangential * self.tangential_dashpot };
             let force = self.law.force(&touch, radius, dashpots, dt, &mut spring);

@@ -61,8 +61,7 @@ fn work(law: &PairLaw, corners: &[(f64, f64)]) -> f64 {
         for k in 1..=steps {
             let overlap = d0 + (d1 - d0) * f64::from(k) / f64::from(steps);
             let velocity = Vector3::new(ds / dt, 0.0, 0.0);
-            let touch =
-                Touch { normal: Vector3::y(), overlap, velocity, mean_velocity: velocity, twirl: 0.0 };
+            let touch = Touch { normal: Vector3::y(), overlap, velocity, twirl: 0.0 };
             let force = law.force(&touch, (radius * overlap).sqrt(), none, dt, &mut spring).tangential.x;
             work += 0.5 * (force + before) * ds;
             before = force;
@@ -77,7 +76,7 @@ fn a_new_contact_began_half_a_step_ago() {
     let law = law((1e6, 0.25), (3e6, 0.3), 100.0, 1.0, with(TangentialLaw::Total));
     let (dt, mut spring) = (1e-5, Spring::default());
     let velocity = Vector3::new(0.02, 0.0, 0.0);
-    let touch = Touch { normal: Vector3::y(), overlap: 1e-4, velocity, mean_velocity: velocity, twirl: 0.0 };
+    let touch = Touch { normal: Vector3::y(), overlap: 1e-4, velocity, twirl: 0.0 };
     for steps in [0.5, 1.5, 2.5] {
         law.force(&touch, 5e-4, Dashpots { normal: 0.0, tangential: 0.0 }, dt, &mut spring);
         near(spring.stretch.x, steps * dt * velocity.x, 1e-12, "stretch");
