@@ -12,7 +12,7 @@ use pancoat::models::{BatchStatistics, CoatMap};
 use pancoat::scene::{Scene, Settle};
 use pancoat::shapes::TabletShape;
 use pancoat::stepping::Simulation;
-use pancoat::world::{Motion, World};
+use pancoat::world::{Motion, NearChanges, World};
 use std::hint::black_box;
 
 /// A bed at one instant.
@@ -42,8 +42,7 @@ impl Bed {
         let shapes = self.simulation.shapes();
         let (mut world, mut field) = (World::new(), ContactField::new(&self.scene, shapes));
         if let (true, Some(drum)) = (walls, self.simulation.drum()) {
-            let index = world.add_surface(drum);
-            field.add_mesh(drum, index, 1, true);
+            field.add_mesh(drum, world.add_surface(drum), 1, true);
         }
         let inertia = Vector3::from(peers_scene::MOMENTS);
         for motion in &self.motions {
@@ -53,10 +52,15 @@ impl Bed {
         (world, field)
     }
 
-    fn feel(&self, world: &World, field: &mut ContactField) {
+    fn search(&self, world: &mut World) -> NearChanges {
+        world.search(&self.motions, &[], &Motion::at_rest(), &vec![0.0; self.motions.len()])
+    }
+
+    fn feel(&self, field: &mut ContactField, near: &NearChanges) {
         let mut wrenches =
             vec![Wrench { force: Vector3::zeros(), torque: Vector3::zeros() }; self.motions.len()];
-        field.add_forces(&self.motions, &[self.drum], world, 1e-9, &mut wrenches);
+        let odometers = vec![0.0; self.motions.len()];
+        field.add_forces(&self.motions, &[self.drum], &odometers, || near.clone(), 1e-9, &mut wrenches);
         black_box(wrenches);
     }
 }
@@ -64,31 +68,26 @@ impl Bed {
 fn phases(criterion: &mut Criterion) {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
     let bed = Bed::flowing();
-    let rest = Motion::at_rest();
+    let none = NearChanges::default();
 
     let (mut world, mut pairs) = bed.field(false);
-    let near = world.search(&bed.motions, &[], &rest);
+    let near = bed.search(&mut world);
     criterion.bench_function("near-pair search, all bodies anew", |bencher| {
         let fresh = || bed.field(false).0;
-        bencher.iter_batched_ref(
-            fresh,
-            |world| world.search(&bed.motions, &[], &rest),
-            BatchSize::LargeInput,
-        );
+        bencher.iter_batched_ref(fresh, |world| bed.search(world), BatchSize::LargeInput);
     });
-    pairs.change_near(&near.parted, &near.met);
     criterion.bench_function("lists of all near pairs, with their contacts", |bencher| {
-        bencher.iter_batched_ref(|| pairs.clone(), |field| bed.feel(&world, field), BatchSize::LargeInput);
+        bencher.iter_batched_ref(|| pairs.clone(), |field| bed.feel(field, &near), BatchSize::LargeInput);
     });
-    bed.feel(&world, &mut pairs);
+    bed.feel(&mut pairs, &near);
     criterion.bench_function("sphere-sphere contacts, lists as they are", |bencher| {
-        bencher.iter(|| bed.feel(&world, &mut pairs));
+        bencher.iter(|| bed.feel(&mut pairs, &none));
     });
 
-    let (world, mut walls) = bed.field(true);
-    bed.feel(&world, &mut walls);
+    let (_, mut walls) = bed.field(true);
+    bed.feel(&mut walls, &none);
     criterion.bench_function("sphere-triangle contacts, lists as they are", |bencher| {
-        bencher.iter(|| bed.feel(&world, &mut walls));
+        bencher.iter(|| bed.feel(&mut walls, &none));
     });
 
     criterion.bench_function("a step of bodies that touch nothing", |bencher| {

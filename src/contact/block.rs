@@ -81,7 +81,7 @@ impl Block {
         for k in 0..LANES {
             let between = get(&self.between, k);
             let distance = between.norm();
-            let normal = between / distance;
+            let normal = between * (1.0 / distance);
             let overlap = self.reach[k] - distance;
             let contact_radius = (overlap / self.curvature[k]).sqrt();
             let arm = get(&self.arm, k) + normal * (self.radius[k] - rule.inside * overlap);

@@ -11,7 +11,7 @@ use super::tasks::{DESK, Findings, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::{DampingMass, Scene};
 use crate::shapes::{SurfaceMesh, TabletShape};
-use crate::world::{Motion, World};
+use crate::world::{FacetTree, Motion, NearChanges};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 /// rebuilt often; large ones hold many pairs that do not touch.
 const SKIN: f64 = 0.02;
 /// Bodies whose walls one task takes: a fixed number, so that results do not depend on the number of threads.
-const CHUNK: usize = 512;
+const CHUNK: usize = 128;
 
 /// Force and torque on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,35 +134,33 @@ impl ContactField {
         self.walls.resize(self.wall_watches.len(), WallList::new());
     }
 
-    /// Adds a triangle surface, which the world knows as `index`; must come before the bodies. `carrier`: the surface
-    /// whose motion the bed shares.
-    pub fn add_mesh(&mut self, mesh: &SurfaceMesh, index: usize, material: usize, carrier: bool) {
-        self.add_surface(Surface::mesh(mesh), index, material, carrier);
+    /// Adds a triangle surface with the tree of its facets; must come before the bodies. `carrier`: the surface whose motion
+    /// the bed shares.
+    pub fn add_mesh(&mut self, mesh: &SurfaceMesh, facets: FacetTree, material: usize, carrier: bool) {
+        self.add_surface(Surface::mesh(mesh), Some(facets), material, carrier);
     }
 
     /// Adds an unbounded plane through `point` with the unit normal pointing to the bodies; must come before the bodies.
     pub fn add_plane(&mut self, point: Vector3<f64>, normal: Vector3<f64>, material: usize) {
-        self.add_surface(Surface::Plane(point, normal), 0, material, false);
+        self.add_surface(Surface::Plane(point, normal), None, material, false);
     }
 
-    fn add_surface(&mut self, surface: Surface, mesh: usize, material: usize, carrier: bool) {
+    fn add_surface(&mut self, surface: Surface, facets: Option<FacetTree>, material: usize, carrier: bool) {
         debug_assert!(self.bodies.is_empty());
-        self.boundaries.push(Boundary { surface, mesh, material, carrier, motion: Motion::at_rest() });
+        self.boundaries.push(Boundary { surface, facets, material, carrier, motion: Motion::at_rest() });
         self.surface_torques.push(Vector3::zeros());
     }
 
-    /// Tells the field which pairs of bodies are no longer near each other and which are now: smaller index first, sorted.
-    pub fn change_near(&mut self, parted: &[(u32, u32)], met: &[(u32, u32)]) {
-        groups::change(&mut self.groups, parted, met);
-    }
-
     /// Forces and torques of all contacts, added to `wrenches` in the order of pairs and bodies whatever the number of
-    /// threads. `surfaces` are the motions of all surfaces at the same instant; springs advance by `dt`, s.
+    /// threads. `surfaces` are the motions of all surfaces at the same instant, `odometers` the distances that each body's
+    /// farthest sphere centre can have moved against the carrier so far, m; `search` tells which bodies are near each other,
+    /// which walls need not wait for; springs advance by `dt`, s.
     pub fn add_forces(
         &mut self,
         motions: &[Motion],
         surfaces: &[Motion],
-        world: &World,
+        odometers: &[f64],
+        search: impl FnOnce() -> NearChanges + Send,
         dt: f64,
         wrenches: &mut [Wrench],
     ) -> Tally {
@@ -177,7 +175,7 @@ impl ContactField {
             bodies: &self.bodies,
             motions,
             frames: &self.frames,
-            odometers: world.odometers(),
+            odometers,
             materials: self.materials,
             skin: self.skin,
             dt,
@@ -202,15 +200,19 @@ impl ContactField {
                     damping,
                     keep_contacts,
                     boundaries,
-                    world,
                 };
                 pulp::Arch::new().dispatch(task);
             });
         };
         self.found_at_walls.resize_with(self.walls.len().div_ceil(CHUNK), Findings::default);
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
+        let groups = &mut self.groups;
         rayon::join(
-            || self.groups.par_iter_mut().for_each(pairs),
+            || {
+                let NearChanges { parted, met } = search();
+                groups::change(groups, &parted, &met);
+                groups.par_iter_mut().for_each(pairs);
+            },
             || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
         );
         self.gather(wrenches)

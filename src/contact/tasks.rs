@@ -11,8 +11,6 @@ use super::pairs::{Pair, Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
-use crate::world::World;
-use nalgebra::Vector3;
 use std::cell::RefCell;
 
 /// Contacts that are worked out together at least: what they need stays in the nearest memory.
@@ -133,7 +131,6 @@ pub(super) struct WallTask<'a> {
     pub damping: DampingMass,
     pub keep_contacts: bool,
     pub boundaries: &'a [Boundary],
-    pub world: &'a World,
 }
 
 impl pulp::NullaryFnOnce for WallTask<'_> {
@@ -141,20 +138,17 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { watches, lists, setting, boundaries, world, .. } = self;
+        let Self { watches, lists, setting, boundaries, .. } = self;
         let Desk { scratch, batch, .. } = self.desk;
         let findings = self.findings;
         findings.clear();
         let rule = Rule { damping: self.damping, inside: 0.0, dt: setting.dt };
-        let facets = |surface: &Boundary, min: &Vector3<f64>, max: &Vector3<f64>, out: &mut Vec<u32>| {
-            world.facets_near(surface.mesh, min, max, out);
-        };
         let sides = |body: u32, surface: u32| {
             (setting.side(body as usize), Side::surface(&boundaries[surface as usize].motion))
         };
         for (k, watch) in watches.iter_mut().enumerate().filter(|(_, w)| w.alert(setting.odometers)) {
             let boundary = &boundaries[watch.surface as usize];
-            lists[k].refresh(watch, setting, boundary, facets, &mut scratch.facets);
+            lists[k].refresh(watch, setting, boundary, &mut scratch.facets);
             lists[k].look(watch, k, setting, boundary, scratch, batch);
         }
         batch.work_out(self.laws, &rule, sides);

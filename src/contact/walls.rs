@@ -11,7 +11,7 @@ use super::lease::Lease;
 use super::pairs::{Scratch, Setting};
 use super::side::Side;
 use super::surface::{Nearest, Planes, Surface};
-use crate::world::{Motion, Relative};
+use crate::world::{FacetTree, Motion, Relative};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use wide::f32x8;
@@ -66,11 +66,11 @@ impl WallWatch {
 }
 
 /// A surface with its motion.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone)]
 pub(super) struct Boundary {
     pub surface: Surface,
-    /// Index of the world's surface, for a mesh.
-    pub mesh: usize,
+    /// Of a mesh.
+    pub facets: Option<FacetTree>,
     pub material: usize,
     /// Whether the odometers measure motion against this surface.
     pub carrier: bool,
@@ -96,15 +96,13 @@ impl WallList {
         }
     }
 
-    /// Makes sure every sphere and facet that touch are listed. `facets_near` fills the facets of the surface whose
-    /// boxes meet a box (surface axes, m).
+    /// Makes sure every sphere and facet that touch are listed.
     #[inline(always)]
     pub(super) fn refresh(
         &mut self,
         watch: &mut WallWatch,
         setting: &Setting<'_>,
         boundary: &Boundary,
-        facets_near: impl Fn(&Boundary, &Vector3<f64>, &Vector3<f64>, &mut Vec<u32>),
         scratch: &mut Vec<u32>,
     ) {
         let body = watch.body as usize;
@@ -121,9 +119,9 @@ impl WallList {
         }
         if self.sought.left(&now) < setting.skin {
             scratch.clear();
-            if let Surface::Mesh(_) = &boundary.surface {
+            if let Some(facets) = &boundary.facets {
                 let reach = Vector3::repeat(outline.bounding_radius + LOOKOUT * setting.skin);
-                facets_near(boundary, &(now.position - reach), &(now.position + reach), scratch);
+                facets.near(&(now.position - reach), &(now.position + reach), scratch);
             } else {
                 scratch.push(0);
             }

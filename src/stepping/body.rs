@@ -10,8 +10,10 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub(super) struct Body {
     /// Mass, kg.
     pub mass: f64,
-    /// Principal moments, kg m².
-    pub inertia: Vector3<f64>,
+    /// 1/kg.
+    pub inverse_mass: f64,
+    /// Inverse principal moments, 1/(kg m²).
+    pub inverse_inertia: Vector3<f64>,
     /// Turns body axes to world axes.
     pub orientation: UnitQuaternion<f64>,
     /// Velocity at the present step (between kicks: half a step on), m/s.
@@ -28,13 +30,13 @@ impl Body {
     /// Second half of a step's kick (also the first half of the next one).
     #[inline]
     pub(super) fn kick(&mut self, wrench: &Wrench, half_step: f64) {
-        self.velocity += wrench.force * (half_step / self.mass);
+        self.velocity += wrench.force * (half_step * self.inverse_mass);
         self.momentum += wrench.torque * half_step;
     }
 
     /// Angular velocity, world axes, rad/s, of momentum `momentum` at `rotation`.
     #[inline]
     pub(super) fn spin_of(&self, rotation: &nalgebra::Matrix3<f64>, momentum: &Vector3<f64>) -> Vector3<f64> {
-        rotation * rotation.tr_mul(momentum).component_div(&self.inertia)
+        rotation * rotation.tr_mul(momentum).component_mul(&self.inverse_inertia)
     }
 }

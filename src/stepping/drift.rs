@@ -10,6 +10,9 @@ use crate::contact::Wrench;
 use crate::world::Motion;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
+/// Odometers run this much fast: what a step's chord leaves of the arc, rounding included.
+const SAFETY: f64 = 1.01;
+
 const LANES: usize = 8;
 type Lanes = [f64; LANES];
 type Lanes3 = [Lanes; 3];
@@ -20,8 +23,8 @@ pub(super) struct Drift<'a> {
     pub motions: &'a mut [Motion],
     /// Forces and torques of the last force evaluation.
     pub wrenches: &'a [Wrench],
-    /// How far each body's farthest sphere centre goes against the carrier, m.
-    pub paths: &'a mut [f64],
+    /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
+    pub odometers: &'a mut [f64],
     /// Angular velocity of the carrier, rad/s.
     pub carrier: Vector3<f64>,
     /// Step, s.
@@ -31,8 +34,8 @@ pub(super) struct Drift<'a> {
 /// Eight bodies; places left over hold the first one again.
 #[derive(Default)]
 struct Eight {
-    mass: Lanes,
-    inertia: Lanes3,
+    inverse_mass: Lanes,
+    inverse_inertia: Lanes3,
     orientation: [Lanes; 4],
     position: Lanes3,
     velocity: Lanes3,
@@ -80,20 +83,20 @@ impl pulp::NullaryFnOnce for Drift<'_> {
 
     #[inline(always)]
     fn call(self) -> bool {
-        let Self { bodies, motions, wrenches, paths, carrier, dt } = self;
+        let Self { bodies, motions, wrenches, odometers, carrier, dt } = self;
         let bodies = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES));
-        let eights = bodies.zip(wrenches.chunks(LANES)).zip(paths.chunks_mut(LANES));
+        let eights = bodies.zip(wrenches.chunks(LANES)).zip(odometers.chunks_mut(LANES));
         let mut eight = Eight::default();
         let mut astray = 0.0;
-        for (((bodies, motions), wrenches), paths) in eights {
+        for (((bodies, motions), wrenches), odometers) in eights {
             eight.read(bodies, motions, wrenches);
             eight.kick(0.5 * dt);
             eight.find_turn(&carrier, dt);
             eight.mend_large_turns();
             eight.arrive();
-            for (k, ((body, motion), path)) in bodies.iter_mut().zip(motions).zip(paths).enumerate() {
+            for (k, ((body, motion), odometer)) in bodies.iter_mut().zip(motions).zip(odometers).enumerate() {
                 eight.write(k, body, motion);
-                *path = eight.path[k];
+                *odometer += SAFETY * eight.path[k];
             }
             astray += eight.astray.iter().sum::<f64>();
         }
@@ -107,8 +110,8 @@ impl Eight {
         for k in 0..LANES {
             let from = if k < bodies.len() { k } else { 0 };
             let (body, motion, wrench) = (&bodies[from], &motions[from], &wrenches[from]);
-            self.mass[k] = body.mass;
-            set(&mut self.inertia, k, &body.inertia);
+            self.inverse_mass[k] = body.inverse_mass;
+            set(&mut self.inverse_inertia, k, &body.inverse_inertia);
             let q = body.orientation.coords;
             set_four(&mut self.orientation, k, (q.x, q.y, q.z, q.w));
             set(&mut self.position, k, &motion.position);
@@ -124,7 +127,7 @@ impl Eight {
     #[inline(always)]
     fn kick(&mut self, half_step: f64) {
         for k in 0..LANES {
-            let velocity = get(&self.velocity, k) + get(&self.force, k) * (half_step / self.mass[k]);
+            let velocity = get(&self.velocity, k) + get(&self.force, k) * (half_step * self.inverse_mass[k]);
             let momentum = get(&self.momentum, k) + get(&self.torque, k) * half_step;
             set(&mut self.velocity, k, &velocity);
             set(&mut self.momentum, k, &momentum);
@@ -140,14 +143,14 @@ impl Eight {
             set(&mut self.position, k, &(position + velocity * dt));
 
             let axes = axes(four(&self.orientation, k));
-            let (momentum, inertia) = (get(&self.momentum, k), get(&self.inertia, k));
+            let (momentum, softness) = (get(&self.momentum, k), get(&self.inverse_inertia, k));
             let m = into_body(&axes, &momentum);
-            let w = m.component_div(&inertia);
+            let w = m.component_mul(&softness);
             let m1 = m.cross(&w);
-            let w1 = m1.component_div(&inertia);
-            let w2 = (m1.cross(&w) + m.cross(&w1)).component_div(&inertia);
-            let turn = (w + (w1 + (w2 / 3.0 + w.cross(&w1) / 6.0) * dt) * (0.5 * dt)) * dt;
-            let spin = into_world(&axes, &turn) / dt;
+            let w1 = m1.component_mul(&softness);
+            let w2 = (m1.cross(&w) + m.cross(&w1)).component_mul(&softness);
+            let turn = (w + (w1 + (w2 * (1.0 / 3.0) + w.cross(&w1) * (1.0 / 6.0)) * dt) * (0.5 * dt)) * dt;
+            let spin = into_world(&axes, &turn) * (1.0 / dt);
             set(&mut self.spin, k, &spin);
             set(&mut self.turn, k, &turn);
             self.path[k] = moved.norm() + (spin - carrier).norm() * dt * self.reach[k];
@@ -156,8 +159,9 @@ impl Eight {
 
             // By series, so that no library sine enters: truncation below h¹⁰/10! < 3e-17 for half angles h < 0.1.
             let h2 = 0.25 * turn.norm_squared();
-            let cos = 1.0 - h2 / 2.0 * (1.0 - h2 / 12.0 * (1.0 - h2 / 30.0 * (1.0 - h2 / 56.0)));
-            let sinc = 1.0 - h2 / 6.0 * (1.0 - h2 / 20.0 * (1.0 - h2 / 42.0 * (1.0 - h2 / 72.0)));
+            let over = |n: f64| h2 * (1.0 / n);
+            let cos = 1.0 - over(2.0) * (1.0 - over(12.0) * (1.0 - over(30.0) * (1.0 - over(56.0))));
+            let sinc = 1.0 - over(6.0) * (1.0 - over(20.0) * (1.0 - over(42.0) * (1.0 - over(72.0))));
             let v = turn * (0.5 * sinc);
             set_four(&mut self.turned, k, (v.x, v.y, v.z, cos));
         }

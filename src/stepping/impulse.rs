@@ -22,7 +22,7 @@ pub(super) fn step(
     world.step(surfaces, dt);
     for ((body, motion), (orientation, now)) in bodies.iter_mut().zip(&mut *motions).zip(world.motions()) {
         (body.orientation, body.velocity, *motion) = (orientation, now.velocity, now);
-        body.momentum = now.rotation * now.rotation.tr_mul(&now.spin).component_mul(&body.inertia);
+        body.momentum = now.rotation * now.rotation.tr_mul(&now.spin).component_div(&body.inverse_inertia);
     }
     let weight = |(b, m): (&Body, &Motion)| b.mass * m.position.cross(gravity).z;
     let weight: f64 = bodies.iter().zip(&*motions).map(weight).sum();

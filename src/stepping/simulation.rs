@@ -17,6 +17,7 @@ use nalgebra::{Rotation3, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use std::time::{Duration, Instant};
 
 /// Bodies that one thread moves at a time.
 const CHUNK: usize = 128;
@@ -45,8 +46,8 @@ pub struct Simulation {
     /// Velocity and spin of each surface.
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
     wrenches: Vec<Wrench>,
-    /// How far each body's farthest sphere centre went against the carrier in the last step, m.
-    paths: Vec<f64>,
+    /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
+    odometers: Vec<f64>,
     /// Whether some body moves farther in a step than it may, or is nowhere.
     pub(super) astray: bool,
     pub(super) rng: ChaCha8Rng,
@@ -96,7 +97,7 @@ impl Simulation {
             meshes: 0,
             drives: Vec::new(),
             wrenches: Vec::new(),
-            paths: Vec::new(),
+            odometers: Vec::new(),
             astray: false,
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
             torque_sum: 0.0,
@@ -127,8 +128,8 @@ impl Simulation {
 
     fn add_surfaces(&mut self) -> Result<(), SimulationError> {
         if let (Some(drum), Some(mesh)) = (&self.scene.drum, &self.drum) {
-            let index = self.world.add_surface(mesh);
-            self.field.add_mesh(mesh, index, drum.material, true);
+            let facets = self.world.add_surface(mesh);
+            self.field.add_mesh(mesh, facets, drum.material, true);
             self.impulses.iter_mut().for_each(|world| world.add_mesh(mesh, drum.material));
             self.drives.push((Vector3::zeros(), Vector3::z() * drum.speed));
             self.meshes += 1;
@@ -152,8 +153,8 @@ impl Simulation {
                 BoundarySurface::Mesh { path, scale } => {
                     let ImportedSurface { mesh, repairs } = read_surface(path, *scale)?;
                     self.repairs.extend(repairs.iter().map(|repair| format!("{}: {repair}", path.display())));
-                    let index = self.world.add_surface(&mesh);
-                    self.field.add_mesh(&mesh, index, boundary.material, false);
+                    let facets = self.world.add_surface(&mesh);
+                    self.field.add_mesh(&mesh, facets, boundary.material, false);
                     self.impulses.iter_mut().for_each(|world| world.add_mesh(&mesh, boundary.material));
                     self.drives.push(drive);
                     self.meshes += 1;
@@ -189,7 +190,8 @@ impl Simulation {
         let momentum = rotation * rotation.tr_mul(&state.spin).component_mul(&inertia);
         self.bodies.push(Body {
             mass,
-            inertia,
+            inverse_mass: 1.0 / mass,
+            inverse_inertia: inertia.map(|moment| 1.0 / moment),
             orientation: state.orientation,
             velocity: state.velocity,
             momentum,
@@ -198,6 +200,7 @@ impl Simulation {
         });
         self.kinds.push(shape);
         self.motions.push(motion);
+        self.odometers.push(0.0);
         self.wrenches.push(Wrench { force: self.scene.gravity * mass, torque: Vector3::zeros() });
     }
 
@@ -225,15 +228,21 @@ impl Simulation {
     /// Forces and torques at the present time level; springs advance by `dt` s.
     fn feel(&mut self, dt: f64) {
         let carrier = self.carrier();
-        let near = self.world.search(&self.motions, &self.surfaces[..self.meshes], &carrier);
-        self.field.change_near(&near.parted, &near.met);
-        self.stopwatch.lap(Phase::Search);
         for (wrench, body) in self.wrenches.iter_mut().zip(&self.bodies) {
             *wrench = Wrench { force: self.scene.gravity * body.mass, torque: Vector3::zeros() };
         }
-        self.tally =
-            self.field.add_forces(&self.motions, &self.surfaces, &self.world, dt, &mut self.wrenches);
+        let (world, motions, odometers) = (&mut self.world, &self.motions[..], &self.odometers[..]);
+        let (surfaces, meshes) = (&self.surfaces[..], self.meshes);
+        let mut searching = Duration::ZERO;
+        let search = || {
+            let start = Instant::now();
+            let near = world.search(motions, &surfaces[..meshes], &carrier, odometers);
+            searching = start.elapsed();
+            near
+        };
+        self.tally = self.field.add_forces(motions, surfaces, odometers, search, dt, &mut self.wrenches);
         self.stopwatch.lap(Phase::Contact);
+        self.stopwatch.split(Phase::Contact, Phase::Search, searching);
     }
 
     fn advance_by_impulses(&mut self, dt: f64) {
@@ -249,14 +258,12 @@ impl Simulation {
 
     fn drift(&mut self, dt: f64) {
         let carrier = self.carrier().spin;
-        self.paths.resize(self.bodies.len(), 0.0);
         let bodies = self.bodies.par_chunks_mut(CHUNK).zip(self.motions.par_chunks_mut(CHUNK));
-        let chunks = bodies.zip(self.wrenches.par_chunks(CHUNK)).zip(self.paths.par_chunks_mut(CHUNK));
-        let drift = |(((bodies, motions), wrenches), paths)| {
-            pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, paths, carrier, dt })
+        let chunks = bodies.zip(self.wrenches.par_chunks(CHUNK)).zip(self.odometers.par_chunks_mut(CHUNK));
+        let drift = |(((bodies, motions), wrenches), odometers)| {
+            pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, odometers, carrier, dt })
         };
         self.astray = chunks.map(drift).reduce(|| false, |one, other| one | other);
-        self.world.travel(&self.paths);
         self.step += 1;
         self.move_surfaces();
     }

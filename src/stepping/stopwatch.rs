@@ -42,6 +42,13 @@ impl Stopwatch {
         self.last = now;
     }
 
+    /// Counts `time` of what was counted for `whole` for its part `part` instead.
+    #[inline]
+    pub(super) fn split(&mut self, whole: Phase, part: Phase, time: Duration) {
+        self.spent[whole as usize] = self.spent[whole as usize].saturating_sub(time);
+        self.spent[part as usize] += time;
+    }
+
     /// Seconds per phase, by name.
     pub fn seconds(&self) -> [(&'static str, f64); 4] {
         let s = self.spent.map(|d| d.as_secs_f64());

@@ -9,6 +9,7 @@
 //! when a scene asks for it.
 
 mod boxes;
+mod facets;
 #[cfg(test)]
 pub(crate) mod harvest;
 mod hooks;
@@ -17,6 +18,7 @@ mod motion;
 mod plates;
 mod tuning;
 
+pub use facets::FacetTree;
 pub use impulse::ImpulseWorld;
 pub use motion::{Motion, Relative};
 
@@ -24,7 +26,9 @@ use crate::shapes::{Clump, SurfaceMesh};
 use boxes::Boxes;
 use hooks::{ContactHooks, SURFACE, context};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use rapier3d::parry::shape::TriMesh;
 use rapier3d::prelude::*;
+use std::sync::Arc;
 
 /// Rapier's sets and what it takes to run them.
 pub struct World {
@@ -33,12 +37,10 @@ pub struct World {
     boxes: Boxes,
     hooks: ContactHooks,
     tablets: Vec<(RigidBodyHandle, ColliderHandle)>,
-    surfaces: Vec<(RigidBodyHandle, SharedShape)>,
+    surfaces: Vec<RigidBodyHandle>,
     tracks: Vec<Track>,
     /// Odometer up to which each tablet's margin holds for sure, m.
     marks: Vec<f64>,
-    /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
-    odometers: Vec<f64>,
 }
 
 /// What a search changes: pairs of bodies, smaller index first, sorted.
@@ -89,7 +91,6 @@ impl Clone for World {
             surfaces: self.surfaces.clone(),
             tracks: self.tracks.clone(),
             marks: self.marks.clone(),
-            odometers: self.odometers.clone(),
             ..Self::new()
         }
     }
@@ -107,24 +108,24 @@ impl World {
             surfaces: Vec::new(),
             tracks: Vec::new(),
             marks: Vec::new(),
-            odometers: Vec::new(),
         }
     }
 
-    /// Adds a driven surface; its index counts from 0.
+    /// Adds a driven surface and returns the tree of its facets.
     ///
     /// # Panics
     /// When the mesh has no triangle.
-    pub fn add_surface(&mut self, mesh: &SurfaceMesh) -> usize {
+    pub fn add_surface(&mut self, mesh: &SurfaceMesh) -> FacetTree {
         let vertices = mesh.vertices.iter().map(|v| Vec3::new(v.x as f32, v.y as f32, v.z as f32)).collect();
-        let shape = SharedShape::trimesh(vertices, mesh.triangles.clone()).expect("a mesh has triangles");
+        let shape = Arc::new(TriMesh::new(vertices, mesh.triangles.clone()).expect("a mesh has triangles"));
         let body = RigidBodyBuilder::kinematic_position_based().user_data(SURFACE);
         let handle = self.bodies.insert(body);
-        let collider =
-            ColliderBuilder::new(shape.clone()).collision_groups(InteractionGroups::none()).density(0.0);
+        let collider = ColliderBuilder::new(SharedShape(shape.clone()))
+            .collision_groups(InteractionGroups::none())
+            .density(0.0);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
-        self.surfaces.push((handle, shape));
-        self.surfaces.len() - 1
+        self.surfaces.push(handle);
+        FacetTree(shape)
     }
 
     /// Adds a tablet as a compound of balls with the mass, kg, and principal moments, kg m², of the true solid; its
@@ -153,39 +154,33 @@ impl World {
             bounding_radius: clump.bounding_radius(),
         });
         self.marks.push(f64::NEG_INFINITY);
-        self.odometers.push(0.0);
         index
     }
 
-    /// Tells the world how far each tablet's farthest sphere centre went against the carrier in a step, m.
-    pub fn travel(&mut self, paths: &[f64]) {
-        for (odometer, path) in self.odometers.iter_mut().zip(paths) {
-            *odometer += tuning::SAFETY * path;
-        }
-    }
-
-    /// Distance that each tablet's farthest sphere centre can have moved against the carrier so far, m.
-    pub fn odometers(&self) -> &[f64] {
-        &self.odometers
-    }
-
     /// Which pairs of bodies can touch before the next search that could not by the last one, and the other way round; to
-    /// be called at every step, since it sees to it that no body uses up its margin.
+    /// be called at every step, since it sees to it that no body uses up its margin. `odometers`: distance that each tablet's
+    /// farthest sphere centre can have moved against the carrier so far, m.
     ///
     /// The tree learns the boxes of bodies that have used most of their margin and tells which others they are near and
     /// which no longer. Of those that met the hooks are asked at once: Rapier's narrow phase would ask them again for
     /// every pair of a moved body, and be answered that there is nothing to do.
-    pub fn search(&mut self, motions: &[Motion], surfaces: &[Motion], carrier: &Motion) -> NearChanges {
+    pub fn search(
+        &mut self,
+        motions: &[Motion],
+        surfaces: &[Motion],
+        carrier: &Motion,
+        odometers: &[f64],
+    ) -> NearChanges {
         for (k, (body, collider)) in self.tablets.iter().enumerate() {
             // False for a NaN.
-            if self.odometers[k] <= self.marks[k] {
+            if odometers[k] <= self.marks[k] {
                 continue;
             }
             let (motion, track) = (&motions[k], &mut self.tracks[k]);
             let now = motion.seen_from(carrier);
             let moved = now.moved_since(&track.known, &Vector3::zeros(), track.reach);
             if moved < tuning::SPENT * track.margin {
-                self.marks[k] = self.odometers[k] + track.margin - moved;
+                self.marks[k] = odometers[k] + track.margin - moved;
                 continue;
             }
             let velocity = motion.velocity - carrier.velocity_at(&(motion.position - carrier.position));
@@ -199,12 +194,12 @@ impl World {
             self.boxes.put(k as u32, bounds);
             track.known = now;
             track.margin = margin - tuning::ROUNDING;
-            self.marks[k] = self.odometers[k] + track.margin;
+            self.marks[k] = odometers[k] + track.margin;
         }
         if self.boxes.unchanged() {
             return NearChanges::default();
         }
-        for ((handle, _), motion) in self.surfaces.iter().zip(surfaces) {
+        for (handle, motion) in self.surfaces.iter().zip(surfaces) {
             self.bodies[*handle].set_position(pose(&motion.seen_from(carrier)), false);
         }
         let tracks = &self.tracks;
@@ -218,16 +213,6 @@ impl World {
 
     fn pair(&self, a: u32, b: u32) -> ColliderPair {
         ColliderPair::new(self.tablets[a as usize].1, self.tablets[b as usize].1)
-    }
-
-    /// Fills `facets` with the facets of a surface whose boxes meet the box from `min` to `max` (surface axes, m), in no
-    /// particular order.
-    ///
-    /// # Panics
-    /// When there is no surface of that index.
-    pub fn facets_near(&self, surface: usize, min: &Vector3<f64>, max: &Vector3<f64>, facets: &mut Vec<u32>) {
-        let mesh = self.surfaces[surface].1.as_trimesh().expect("surfaces are triangle meshes");
-        facets.extend(mesh.bvh().intersect_aabb(&Aabb::new(to_f32(min), to_f32(max))));
     }
 }
 

@@ -15,8 +15,5 @@ pub(super) const MARGIN: (f64, f64) = (0.2, 1.0);
 /// A body that has used this share of its margin gets a new box: what is left would not be worth a look at every step.
 pub(super) const SPENT: f64 = 0.95;
 
-/// Odometers run this much fast: what a step's chord leaves of the arc, rounding included.
-pub(super) const SAFETY: f64 = 1.01;
-
 /// Subtracted from every allowed motion, m: f32 positions near 1 m are exact to 6e-8 m.
 pub(super) const ROUNDING: f64 = 1e-6;
