@@ -9,8 +9,8 @@ use crate::stepping::TimeStep;
 const FEWEST_STEPS: f64 = 8.0;
 /// Steps in a contact below which its restitution is off by about half a percent or more.
 const FEW_STEPS: f64 = 20.0;
-/// The same for clumps, of which several spheres touch at once: beds of 50-sphere tablets explode within a second at 15 steps
-/// in a contact of one sphere, within seconds at 20, and some of a softer material at 30 (docs/accuracy.md).
+/// Steps in a contact of one sphere below which the energy of a bed of clumps, of which several spheres touch at once, adds up
+/// to no better than a thousandth of what is dissipated (docs/accuracy.md).
 const FEW_STEPS_OF_CLUMPS: f64 = 25.0;
 /// Step times the frequency of the stiffest landing above which velocity Verlet is unstable.
 const UNSTABLE: f64 = 2.0;
@@ -54,8 +54,8 @@ pub(super) enum Warning {
     #[error("only {0:.1} steps in a contact: restitution is off by a percent or so; lower time.step")]
     FewSteps(f64),
     #[error(
-        "only {0:.1} steps in a contact of one sphere, while several spheres of a clump touch at once: the bed may \
-         gain energy; give time.step at least PerContact({FEW_STEPS_OF_CLUMPS})"
+        "only {0:.1} steps in a contact of one sphere, while several spheres of a clump touch at once: the energy of the \
+         bed does not add up to a thousandth; give time.step at least PerContact({FEW_STEPS_OF_CLUMPS})"
     )]
     FewStepsOfClumps(f64),
     #[error(

@@ -10,8 +10,8 @@ use std::time::Instant;
 /// Cost of one body in one time step, in evaluations of the contact law: lists, motion and search, and what each sphere
 /// of its clump adds. Measured with `cargo run --release --example throughput` on the cases `peers20`, `peers50`,
 /// `peers100` and `round`, one thread; a flat pan is a quarter cheaper, a busy machine up to twice as slow.
-const BODY: f64 = 33.0;
-const SPHERE: f64 = 0.23;
+const BODY: f64 = 12.0;
+const SPHERE: f64 = 0.12;
 /// Evaluations timed to learn the machine's pace.
 const TRIALS: u32 = 100_000;
 

@@ -134,7 +134,7 @@ impl PairLaw {
     /// Dashpots proportional to the stiffnesses so that a motion of angular frequency `omega`, rad/s, is damped by β.
     ///
     /// Derived here: a single contact has ω² = S_n/m*, for which c = 2 √(5/6) β √(S_n m*) = (2 √(5/6) β/ω) S_n. `dt` is the
-    /// step of the velocities they meet, s ([`Dashpots::delayed`]; c/m* is 2 √(5/6) β ω).
+    /// step of the velocities they meet, s: they are weakened as `Dashpots::delayed` says, with c/m* = 2 √(5/6) β ω.
     #[inline]
     pub fn dashpots_at(&self, contact_radius: f64, omega: f64, dt: f64) -> Dashpots {
         let (sn, st) = (self.normal_stiffness(contact_radius), self.tangential_stiffness(contact_radius));

@@ -1,8 +1,8 @@
 //! Hertz-Mindlin contact on cached sphere lists.
 //!
-//! In: motions at one time level, near pairs. Out: forces and torques. It moves nothing. Forces, overlaps and spring
-//! increments are taken at one time level; each contact has one common point for both bodies, so that angular momentum is
-//! conserved to round-off.
+//! In: poses with the mean velocities of the step that led there, near pairs. Out: forces and torques. It moves nothing.
+//! Overlaps and springs are those of the poses, dashpots meet the mean velocities; each contact has one common point for
+//! both bodies, so that angular momentum is conserved to round-off.
 
 mod batch;
 mod block;
