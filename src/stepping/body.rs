@@ -3,7 +3,7 @@
 //! Angular momentum L is kept in space axes, so that it is conserved exactly between contacts.
 
 use crate::contact::Wrench;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 /// One body.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,9 +34,9 @@ impl Body {
         self.momentum += wrench.torque * half_step;
     }
 
-    /// Angular velocity, world axes, rad/s, of momentum `momentum` at `rotation`.
+    /// Angular velocity at `rotation`, world axes, rad/s.
     #[inline]
-    pub(super) fn spin_of(&self, rotation: &nalgebra::Matrix3<f64>, momentum: &Vector3<f64>) -> Vector3<f64> {
-        rotation * rotation.tr_mul(momentum).component_mul(&self.inverse_inertia)
+    pub(super) fn spin(&self, rotation: &Matrix3<f64>) -> Vector3<f64> {
+        rotation * rotation.tr_mul(&self.momentum).component_mul(&self.inverse_inertia)
     }
 }

@@ -105,7 +105,7 @@ impl EnergyAudit {
         let (mut kinetic, mut potential) = (0.0, 0.0);
         let mut ended = motions.to_vec();
         for (body, motion) in bodies.iter().zip(&mut ended) {
-            (motion.velocity, motion.spin) = (body.velocity, body.spin_of(&motion.rotation, &body.momentum));
+            (motion.velocity, motion.spin) = (body.velocity, body.spin(&motion.rotation));
             kinetic += 0.5 * (body.mass * motion.velocity.norm_squared() + body.momentum.dot(&motion.spin));
             potential -= body.mass * gravity.dot(&motion.position);
         }

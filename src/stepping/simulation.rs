@@ -378,7 +378,7 @@ impl Simulation {
             position: motion.position,
             orientation: body.orientation,
             velocity: body.velocity,
-            spin: body.spin_of(&motion.rotation, &body.momentum),
+            spin: body.spin(&motion.rotation),
         };
         self.bodies.iter().zip(&self.motions).map(state).collect()
     }
