@@ -151,11 +151,10 @@ impl Session {
         let overlap = simulation.deepest_overlap();
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
         self.record.guards.energy = simulation.energy().as_ref().map(audit);
-        self.record.warnings =
-            guards::warnings(simulation.scene().contact.mode, simulation.shapes(), step, overlap)
-                .iter()
-                .map(ToString::to_string)
-                .collect();
+        self.record.warnings = guards::warnings(simulation.scene().contact.mode, step, overlap)
+            .iter()
+            .map(ToString::to_string)
+            .collect();
         self.record
             .warnings
             .extend(simulation.repairs().iter().map(|repair| format!("mesh repaired: {repair}")));

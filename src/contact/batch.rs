@@ -6,29 +6,25 @@
 //!
 //! A contact has one common point for both bodies, so that angular momentum is conserved to round-off.
 
-use super::block::{Block, EMPTY, LANES, get, set};
+use super::block::{Block, EMPTY, LANES, Springs, get, set};
 use super::energy::Press;
 use super::law::{Dashpots, PairLaw, Spring};
 use super::side::{CROWD, DAMPED, Side, frequency};
 use crate::scene::DampingMass;
 use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Two spheres that touch, or a sphere and a surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     /// From a's centre of mass to the centre of its sphere, world axes, m.
-    pub arm: Vector3<f64>,
-    /// From there to the centre of b's sphere, or to the place of the surface that is nearest, m; never zero.
-    pub between: Vector3<f64>,
-    /// Distance at which they begin to touch, m.
-    pub reach: f64,
+    pub arm: [f64; 3],
+    /// From there to the centre of b's sphere, or to the place of the surface that is nearest, m.
+    pub between: [f64; 3],
     /// Radius of a's sphere, m.
     pub radius: f64,
-    /// Curvature of the contact, 1/R*, 1/m.
-    pub curvature: f64,
-    /// Curvature of the smaller sphere, 1/m.
-    pub sharpness: f64,
-    pub spring: Spring,
+    /// Radius of b's sphere; 0 for a surface, m.
+    pub other: f64,
 }
 
 /// What two bodies do to each other in a step.
@@ -41,6 +37,8 @@ pub(super) struct Exchange {
     pub contacts: u32,
     /// Largest overlap over the smaller sphere's radius, dimensionless.
     pub deepest: f64,
+    /// Sum of the normal dashpots before the bodies' other contacts weaken them, N s/m.
+    pub damping: f64,
     /// Force on b; a feels the opposite, N.
     pub force: Vector3<f64>,
     /// Torque on a about its centre of mass, N m.
@@ -62,25 +60,11 @@ struct Meeting {
     offset: Vector3<f64>,
 }
 
-/// What the contacts of two bodies have in common.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Shared {
-    law: usize,
-    /// Reduced mass, kg.
-    mass: f64,
-    /// Velocity of b against a at the contact point is `drift + turn × arm`.
-    drift: Vector3<f64>,
-    turn: Vector3<f64>,
-    /// Mean spin of the two bodies.
-    spin: Vector3<f64>,
-}
-
 /// Contacts of many bodies, in blocks of one law each.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Batch {
+    /// Blocks and lanes left over hold contacts of the past.
     blocks: Vec<Block>,
-    /// How many of the blocks are in use: the others, and lanes left over, hold contacts of the past.
-    used: usize,
     /// Contacts so far; blocks that a law left unfilled count as full.
     len: usize,
     meetings: Vec<Meeting>,
@@ -101,7 +85,6 @@ impl Batch {
     /// Forgets all contacts.
     pub(super) fn clear(&mut self) {
         self.meetings.clear();
-        self.used = 0;
         self.len = 0;
     }
 
@@ -110,57 +93,69 @@ impl Batch {
         self.len
     }
 
-    /// Begins the contacts of two bodies; `list` is where their springs belong, `law` the index of their law.
+    /// The blocks for as many as `count` contacts in all.
+    pub(super) fn room(&mut self, count: usize) -> &mut [Block] {
+        let blocks = count.div_ceil(LANES);
+        if self.blocks.len() < blocks {
+            self.blocks.resize(blocks, EMPTY);
+        }
+        &mut self.blocks
+    }
+
+    /// Says that there are `count` contacts in the blocks.
+    pub(super) fn take(&mut self, count: usize) {
+        self.len = count;
+    }
+
+    /// Adds contacts of a law, and returns their places.
+    #[inline(always)]
+    pub(super) fn add<'a>(
+        &mut self,
+        law: usize,
+        places: impl ExactSizeIterator<Item = &'a Place>,
+    ) -> Range<usize> {
+        let mixed = self.len > 0 && self.blocks[(self.len - 1) / LANES].law != law;
+        let first = if mixed { self.len.next_multiple_of(LANES) } else { self.len };
+        let range = first..first + places.len();
+        let blocks = self.room(range.end);
+        for (k, place) in range.clone().zip(places) {
+            blocks[k / LANES].put(k % LANES, place);
+        }
+        self.len = range.end;
+        range
+    }
+
+    /// Says whose the contacts `places` are, and by which law and springs they act; `list` is where the springs belong.
     #[inline(always)]
     pub(super) fn meet(
         &mut self,
         (a, b): (u32, u32),
         list: usize,
+        (places, springs): (Range<usize>, impl Iterator<Item = Spring>),
         law: usize,
         (side_a, side_b): (&Side<'_>, &Side<'_>),
-    ) -> Shared {
-        if self.used > 0 && self.blocks[self.used - 1].law != law {
-            self.len = self.used * LANES;
-        }
+        dt: f64,
+    ) {
         let (ma, mb) = (side_a.motion, side_b.motion);
         let offset = mb.position - ma.position;
-        self.meetings.push(Meeting { a, b, list, first: self.len, count: 0, offset });
-        Shared {
-            law,
-            mass: 1.0 / (side_a.inverse_mass + side_b.inverse_mass),
-            drift: mb.velocity - ma.velocity - mb.spin.cross(&offset),
-            turn: mb.spin - ma.spin,
-            spin: (ma.spin + mb.spin) * 0.5,
-        }
-    }
-
-    /// Takes a contact of the two bodies that met last.
-    #[inline(always)]
-    pub(super) fn take(&mut self, shared: &Shared, place: &Place) {
-        let (at, k) = (self.len / LANES, self.len % LANES);
-        if at == self.used {
-            if at == self.blocks.len() {
-                self.blocks.push(EMPTY);
-            }
-            self.blocks[at].law = shared.law;
-            self.used += 1;
-        }
-        let block = &mut self.blocks[at];
-        set(&mut block.arm, k, &place.arm);
-        set(&mut block.between, k, &place.between);
-        block.reach[k] = place.reach;
-        block.radius[k] = place.radius;
-        block.curvature[k] = place.curvature;
-        block.sharpness[k] = place.sharpness;
-        block.mass[k] = shared.mass;
-        set(&mut block.drift, k, &shared.drift);
-        set(&mut block.turn, k, &shared.turn);
-        set(&mut block.spin, k, &shared.spin);
-        set(&mut block.stretch, k, &place.spring.stretch);
-        block.stretch_radius[k] = place.spring.radius;
-        self.len += 1;
-        if let Some(meeting) = self.meetings.last_mut() {
-            meeting.count += 1;
+        let mass = 1.0 / (side_a.inverse_mass + side_b.inverse_mass);
+        // What is left of the dashpots beside those of the bodies' other contacts.
+        let ease = (2.0 * DAMPED / (dt * (side_a.drag + side_b.drag))).min(1.0);
+        // The velocity of b against a is `drift + turn × arm`.
+        let drift = mb.velocity - ma.velocity - mb.spin.cross(&offset);
+        let turn = mb.spin - ma.spin;
+        let spin = (ma.spin + mb.spin) * 0.5;
+        let (first, count) = (places.start, places.len());
+        self.meetings.push(Meeting { a, b, list, first, count, offset });
+        for (place, spring) in places.zip(springs) {
+            let (block, k) = (&mut self.blocks[place / LANES], place % LANES);
+            block.law = law;
+            block.mass[k] = mass;
+            block.ease[k] = ease;
+            set(&mut block.drift, k, &drift);
+            set(&mut block.turn, k, &turn);
+            set(&mut block.spin, k, &spin);
+            block.springs.set(k, &spring);
         }
     }
 
@@ -172,13 +167,13 @@ impl Batch {
         rule: &Rule,
         sides: impl Fn(u32, u32) -> (Side<'a>, Side<'a>),
     ) {
-        let blocks = &mut self.blocks[..self.used];
+        let blocks = &mut self.blocks[..self.len.div_ceil(LANES)];
         for block in blocks.iter_mut() {
             block.place(&laws[block.law], rule);
         }
         for meeting in &self.meetings {
             if rule.damping == DampingMass::Contact || meeting.count >= CROWD {
-                meeting.tune_dashpots(blocks, laws, rule, &sides);
+                meeting.tune_dashpots(blocks, laws, rule, sides(meeting.a, meeting.b));
             }
         }
         for block in blocks.iter_mut() {
@@ -191,9 +186,14 @@ impl Batch {
     #[inline(always)]
     pub(super) fn outcome(&self) -> impl Iterator<Item = (Exchange, usize, impl Iterator<Item = Spring>)> {
         self.meetings.iter().map(|meeting| {
-            let springs = meeting.lanes().map(|(at, k)| self.blocks[at].spring(k));
+            let springs = meeting.lanes().map(|(at, k)| self.blocks[at].springs.get(k));
             (meeting.exchange(&self.blocks), meeting.list, springs)
         })
+    }
+
+    /// The springs of all contacts, in blocks.
+    pub(super) fn springs(&self) -> impl Iterator<Item = Springs> {
+        self.blocks[..self.len.div_ceil(LANES)].iter().map(|block| block.springs)
     }
 
     /// What the contacts worked out last came to, in the order in which they were taken.
@@ -211,17 +211,17 @@ impl Meeting {
 
     /// Dashpots that take more into account than their own contact.
     #[inline]
-    fn tune_dashpots<'a>(
+    fn tune_dashpots(
         &self,
         blocks: &mut [Block],
         laws: &[PairLaw],
         rule: &Rule,
-        sides: &impl Fn(u32, u32) -> (Side<'a>, Side<'a>),
+        sides: (Side<'_>, Side<'_>),
     ) {
-        let law = &laws[blocks[self.first / LANES].law];
         if rule.damping == DampingMass::Contact {
+            let law = &laws[blocks[self.first / LANES].law];
             let felt = self.lanes().map(|(at, k)| blocks[at].felt(k, &self.offset));
-            if let Some(omega) = frequency(felt, &sides(self.a, self.b), law) {
+            if let Some(omega) = frequency(felt, &sides, law) {
                 for (at, k) in self.lanes() {
                     let Dashpots { normal, tangential } =
                         law.dashpots_at(blocks[at].contact_radius[k], omega, rule.dt);
@@ -231,8 +231,7 @@ impl Meeting {
         }
         if self.count >= CROWD {
             let all: f64 = self.lanes().map(|(at, k)| blocks[at].dashpot[0][k]).sum();
-            let (a, b) = sides(self.a, self.b);
-            let share = (DAMPED / (rule.dt * (a.softness + b.softness) * all)).min(1.0);
+            let share = (DAMPED / (rule.dt * (sides.0.softness + sides.1.softness) * all)).min(1.0);
             for (at, k) in self.lanes() {
                 blocks[at].dashpot[0][k] *= share;
                 blocks[at].dashpot[1][k] *= share;
@@ -242,18 +241,21 @@ impl Meeting {
 
     #[inline(always)]
     fn exchange(&self, blocks: &[Block]) -> Exchange {
-        let (mut force, mut torque, mut deepest) = (Vector3::zeros(), Vector3::zeros(), 0.0_f64);
+        let (mut force, mut torque) = (Vector3::zeros(), Vector3::zeros());
+        let (mut deepest, mut damping) = (0.0_f64, 0.0);
         for (at, k) in self.lanes() {
             let block = &blocks[at];
             force += get(&block.force, k);
             torque += get(&block.torque, k);
-            deepest = deepest.max(block.overlap[k] * block.sharpness[k]);
+            deepest = deepest.max(block.depth[k]);
+            damping += block.dashpot[0][k];
         }
         Exchange {
             a: self.a,
             b: self.b,
             contacts: self.count as u32,
             deepest,
+            damping,
             force,
             torque_a: -torque,
             torque_b: torque - self.offset.cross(&force),

@@ -1,6 +1,6 @@
 //! Eight contacts side by side: every lane is computed by the same operations.
 
-use super::batch::Rule;
+use super::batch::{Place, Rule};
 use super::energy::Press;
 use super::law::{Dashpots, PairLaw, Spring, Touch};
 use super::side::Felt;
@@ -12,23 +12,48 @@ pub(super) const LANES: usize = 8;
 type Lanes = [f64; LANES];
 type Lanes3 = [Lanes; 3];
 
+/// Springs of eight contacts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Springs {
+    stretch: Lanes3,
+    radius: Lanes,
+}
+
+impl Springs {
+    /// Eight springs of what does not touch.
+    pub(super) const AT_REST: Self = Self { stretch: ZERO3, radius: ZERO };
+
+    #[inline(always)]
+    pub(super) fn get(&self, k: usize) -> Spring {
+        Spring { stretch: get(&self.stretch, k), radius: self.radius[k] }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, k: usize, spring: &Spring) {
+        set(&mut self.stretch, k, &spring.stretch);
+        self.radius[k] = spring.radius;
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     pub law: usize,
     pub arm: Lanes3,
     pub between: Lanes3,
-    pub reach: Lanes,
+    /// Radius of a's sphere, m.
     pub radius: Lanes,
-    pub curvature: Lanes,
-    pub sharpness: Lanes,
+    /// Radius of b's sphere; 0 for a surface, m.
+    pub other: Lanes,
     pub mass: Lanes,
+    pub ease: Lanes,
     pub drift: Lanes3,
     pub turn: Lanes3,
     pub spin: Lanes3,
-    pub stretch: Lanes3,
-    pub stretch_radius: Lanes,
+    pub springs: Springs,
     pub normal: Lanes3,
     pub overlap: Lanes,
+    /// Overlap over the smaller sphere's radius.
+    pub depth: Lanes,
     pub contact_radius: Lanes,
     pub velocity: Lanes3,
     pub dashpot: [Lanes; 2],
@@ -45,18 +70,17 @@ pub(super) const EMPTY: Block = Block {
     law: 0,
     arm: ZERO3,
     between: [ONE, ZERO, ZERO],
-    reach: ONE,
     radius: ONE,
-    curvature: ONE,
-    sharpness: ONE,
+    other: ONE,
     mass: ONE,
+    ease: ONE,
     drift: ZERO3,
     turn: ZERO3,
     spin: ZERO3,
-    stretch: ZERO3,
-    stretch_radius: ONE,
+    springs: Springs { stretch: ZERO3, radius: ONE },
     normal: ZERO3,
     overlap: ZERO,
+    depth: ZERO,
     contact_radius: ZERO,
     velocity: ZERO3,
     dashpot: [ZERO; 2],
@@ -75,15 +99,30 @@ pub(super) fn set(lanes: &mut Lanes3, k: usize, v: &Vector3<f64>) {
 }
 
 impl Block {
+    /// Puts a contact into a lane.
+    #[inline(always)]
+    pub(super) fn put(&mut self, k: usize, place: &Place) {
+        for axis in 0..3 {
+            self.arm[axis][k] = place.arm[axis];
+            self.between[axis][k] = place.between[axis];
+        }
+        self.radius[k] = place.radius;
+        self.other[k] = place.other;
+    }
+
     /// Where and how the contacts touch, and the dashpots of each by itself.
     #[inline(always)]
     pub(super) fn place(&mut self, law: &PairLaw, rule: &Rule) {
         for k in 0..LANES {
-            let between = get(&self.between, k);
+            let mut between = get(&self.between, k);
+            // One of two centres in one place is above the other.
+            between.y += if between.norm_squared() == 0.0 { f64::EPSILON } else { 0.0 };
             let distance = between.norm();
             let normal = between * (1.0 / distance);
-            let overlap = self.reach[k] - distance;
-            let contact_radius = (overlap / self.curvature[k]).sqrt();
+            let overlap = self.radius[k] + self.other[k] - distance;
+            let curvature = 1.0 / self.radius[k];
+            let other_curvature = if self.other[k] > 0.0 { 1.0 / self.other[k] } else { 0.0 };
+            let contact_radius = (overlap / (curvature + other_curvature)).sqrt();
             let arm = get(&self.arm, k) + normal * (self.radius[k] - rule.inside * overlap);
             let velocity = get(&self.drift, k) + get(&self.turn, k).cross(&arm);
             let Dashpots { normal: across, tangential: along } =
@@ -92,6 +131,7 @@ impl Block {
             set(&mut self.normal, k, &normal);
             set(&mut self.velocity, k, &velocity);
             self.overlap[k] = overlap;
+            self.depth[k] = overlap * curvature.max(other_curvature);
             self.contact_radius[k] = contact_radius;
             self.dashpot[0][k] = across;
             self.dashpot[1][k] = along;
@@ -122,24 +162,21 @@ impl Block {
                 velocity: get(&self.velocity, k),
                 twirl: get(&self.spin, k).dot(&normal),
             };
-            let dashpots = Dashpots { normal: self.dashpot[0][k], tangential: self.dashpot[1][k] };
-            let mut spring = self.spring(k);
+            let dashpots = Dashpots {
+                normal: self.dashpot[0][k] * self.ease[k],
+                tangential: self.dashpot[1][k] * self.ease[k],
+            };
+            let mut spring = self.springs.get(k);
             let pressed = law.force(&touch, self.contact_radius[k], dashpots, dt, &mut spring);
             let force = normal * pressed.normal + pressed.tangential;
             set(&mut self.force, k, &force);
             set(&mut self.torque, k, &get(&self.arm, k).cross(&force));
-            set(&mut self.stretch, k, &spring.stretch);
-            self.stretch_radius[k] = spring.radius;
+            self.springs.set(k, &spring);
         }
     }
 
-    #[inline(always)]
-    pub(super) fn spring(&self, k: usize) -> Spring {
-        Spring { stretch: get(&self.stretch, k), radius: self.stretch_radius[k] }
-    }
-
     pub(super) fn pressed(&self, k: usize, laws: &[PairLaw], dt: f64) -> Press {
-        let (law, spring, normal) = (&laws[self.law], self.spring(k), get(&self.normal, k));
+        let (law, spring, normal) = (&laws[self.law], self.springs.get(k), get(&self.normal, k));
         let (force, velocity) = (get(&self.force, k), get(&self.velocity, k));
         let slip = (velocity - normal * velocity.dot(&normal)) * dt;
         let spring_force = law.spring_force(&spring);

@@ -69,8 +69,12 @@ pub struct ContactField {
     balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
     frames: Vec<Frame>,
+    /// Of each body, see [`Side::drag`](super::side::Side::drag).
+    drags: Vec<f64>,
     pub(super) laws: Vec<PairLaw>,
     materials: usize,
+    /// Whether bodies are of several materials.
+    mixed: bool,
     damping: DampingMass,
     /// Whether single contacts are kept for [`ContactField::contacts`].
     pub(super) keep_contacts: bool,
@@ -108,8 +112,10 @@ impl ContactField {
             balls,
             bodies: Vec::new(),
             frames: Vec::new(),
+            drags: Vec::new(),
             laws: laws.collect(),
             materials: n,
+            mixed: false,
             damping: scene.contact.damping_mass,
             keep_contacts: false,
             skin: SKIN * largest,
@@ -128,6 +134,8 @@ impl ContactField {
         let inverse_inertia = inertia.map(|i| 1.0 / i);
         let inverse_mass = 1.0 / mass;
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
+        self.drags.push(0.0);
+        self.mixed |= self.bodies.first().is_some_and(|first| first.material != material);
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
         let surfaces = self.boundaries.len() as u32;
         self.wall_watches.extend((0..surfaces).map(|surface| WallWatch::new(body, surface)));
@@ -176,7 +184,9 @@ impl ContactField {
             motions,
             frames: &self.frames,
             odometers,
+            drags: &self.drags,
             materials: self.materials,
+            mixed: self.mixed,
             skin: self.skin,
             dt,
         };
@@ -221,6 +231,11 @@ impl ContactField {
     /// Sums over what touches in the order of the lists: the same bits for any number of threads.
     fn gather(&mut self, wrenches: &mut [Wrench]) -> Tally {
         let mut tally = Tally::default();
+        self.drags.fill(0.0);
+        let (drags, bodies) = (&mut self.drags, &self.bodies);
+        let mut drag = |body: u32, damping: f64| {
+            drags[body as usize] += damping * bodies[body as usize].softness;
+        };
         for torque in &mut self.surface_torques {
             *torque = Vector3::zeros();
         }
@@ -228,6 +243,7 @@ impl ContactField {
             let body = &mut wrenches[exchange.a as usize];
             body.force -= exchange.force;
             body.torque += exchange.torque_a;
+            drag(exchange.a, exchange.damping);
             self.surface_torques[exchange.b as usize] += exchange.torque_b;
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
@@ -241,6 +257,8 @@ impl ContactField {
                 let b = &mut wrenches[exchange.b as usize];
                 b.force += exchange.force;
                 b.torque += exchange.torque_b;
+                drag(exchange.a, exchange.damping);
+                drag(exchange.b, exchange.damping);
                 tally.sphere_contacts += exchange.contacts;
                 tally.deepest = tally.deepest.max(exchange.deepest);
             }

@@ -1,11 +1,10 @@
 //! The sphere pairs of near bodies that may touch, in one sequence: read through once a step. Those that touch have a spring.
 
-use super::batch::Place;
-use super::body::Ball;
-use super::frames::{Four, add_less};
+use super::batch::{Batch, Place};
+use super::block::{LANES, Springs};
+use super::frames::add_less;
 use super::law::Spring;
 use super::pairs::Setting;
-use nalgebra::Vector3;
 use std::ops::Range;
 
 /// A sphere of body a and one of body b.
@@ -25,35 +24,36 @@ impl Link {
     pub(super) fn bodies(&self) -> (u32, u32) {
         (self.a, self.b)
     }
-
-    #[inline(always)]
-    fn spheres<'a>(&self, setting: &Setting<'a>) -> (&'a Ball, &'a Ball) {
-        (&setting.balls[self.balls.0 as usize], &setting.balls[self.balls.1 as usize])
-    }
 }
 
 /// The place in [`Links::springs`] of what does not touch.
 const AT_REST: u32 = 0;
 
+/// The spring at a place.
+#[inline(always)]
+fn spring(springs: &[Springs], at: u32) -> Spring {
+    springs[at as usize / LANES].get(at as usize % LANES)
+}
+
 /// The links of many bodies, sorted by bodies and spheres, and what springs they have.
 #[derive(Debug, Clone)]
 pub(super) struct Links {
     all: Vec<Link>,
-    /// One at rest, then those of the links that touched in the last step, in their order.
-    springs: Vec<Spring>,
+    /// Eight at rest, then those of the links that touched in the last step, in their order.
+    springs: Vec<Springs>,
 }
 
 impl Default for Links {
     fn default() -> Self {
-        Self { all: Vec::new(), springs: vec![Spring::default()] }
+        Self { all: Vec::new(), springs: vec![Springs::AT_REST] }
     }
 }
 
 impl Links {
     /// Those that touched in the last step, with their springs.
-    pub(super) fn touching(&self) -> impl Iterator<Item = (&Link, &Spring)> {
+    pub(super) fn touching(&self) -> impl Iterator<Item = (&Link, Spring)> {
         let touching = self.all.iter().filter(|link| link.spring != AT_REST);
-        touching.map(|link| (link, &self.springs[link.spring as usize]))
+        touching.map(|link| (link, spring(&self.springs, link.spring)))
     }
 
     /// Keeps the links of those bodies that stay.
@@ -70,25 +70,23 @@ pub(super) struct LinkDesk {
     next: Vec<Link>,
     /// Those before this one are in `next`.
     passed: usize,
-    /// What touches, and memory left over.
+    /// What touches, by its place in the batch, and memory left over.
     touching: Vec<Touching>,
-    /// How many touch.
-    found: usize,
     /// The springs of the step before.
-    former: Vec<Spring>,
+    former: Vec<Springs>,
 }
 
 /// Two spheres that touch.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct Touching {
-    /// Place in the sequence.
-    link: u32,
+    bodies: (u32, u32),
     /// Place of the spring of the last step.
     spring: u32,
-    /// From a's centre of mass to the centre of its sphere, m.
-    arm: Four,
-    /// From there to the centre of b's sphere, m.
-    between: Four,
+}
+
+impl Touching {
+    /// A place left empty.
+    const NOTHING: Self = Self { bodies: (u32::MAX, u32::MAX), spring: AT_REST };
 }
 
 impl LinkDesk {
@@ -121,68 +119,71 @@ impl LinkDesk {
         }
     }
 
-    /// Finds what touches. No branch depends on the outcome: none could be foreseen. [`LinkDesk::keep`] must follow for
-    /// all that touch.
+    /// Finds what touches and puts it into an empty batch. No branch depends on the outcome: none could be foreseen.
+    /// [`LinkDesk::keep`] must follow.
     #[inline(always)]
-    pub(super) fn touch(&mut self, setting: &Setting<'_>) {
-        let links = &mut self.links.all;
-        if self.touching.len() < links.len() {
-            self.touching.resize(links.len(), Touching::default());
+    pub(super) fn touch(&mut self, setting: &Setting<'_>, batch: &mut Batch) {
+        let Setting { frames, balls, mixed, .. } = *setting;
+        let links = &mut self.links.all[..];
+        // A block for each link at most.
+        let room = links.len() * if mixed { LANES } else { 1 };
+        if self.touching.len() < room {
+            self.touching.resize(room, Touching::NOTHING);
         }
-        let mut found = 0;
-        for (k, link) in links.iter_mut().enumerate() {
-            let (a, b) = (&setting.frames[link.a as usize], &setting.frames[link.b as usize]);
-            let (ball_a, ball_b) = link.spheres(setting);
+        let touching = &mut self.touching[..];
+        let blocks = batch.room(room);
+        let (mut count, mut law) = (0_usize, None);
+        for link in links {
+            let (a, b) = (link.a as usize, link.b as usize);
+            if mixed && law.replace(setting.law_of(a, b)) != Some(setting.law_of(a, b)) {
+                let next = count.next_multiple_of(LANES);
+                touching[count..next].fill(Touching::NOTHING);
+                count = next;
+            }
+            let (a, b) = (&frames[a], &frames[b]);
+            let (ball_a, ball_b) = (&balls[link.balls.0 as usize], &balls[link.balls.1 as usize]);
             let arm = a.turn(&ball_a.center);
             let between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
-            let [x, y, z, _] = between;
+            let ([arm_x, arm_y, arm_z, _], [x, y, z, _]) = (arm, between);
             let reach = ball_a.radius + ball_b.radius;
             let touches = x * x + y * y + z * z < reach * reach;
-            self.touching[found] = Touching { link: k as u32, spring: link.spring, arm, between };
-            found += usize::from(touches);
-            link.spring = found as u32 * u32::from(touches);
+            touching[count] = Touching { bodies: link.bodies(), spring: link.spring };
+            let place = Place {
+                arm: [arm_x, arm_y, arm_z],
+                between: [x, y, z],
+                radius: ball_a.radius,
+                other: ball_b.radius,
+            };
+            blocks[count / LANES].put(count % LANES, &place);
+            link.spring = (LANES + count) as u32 * u32::from(touches);
+            count += usize::from(touches);
         }
-        self.found = found;
+        batch.take(count);
         std::mem::swap(&mut self.links.springs, &mut self.former);
+    }
+
+    /// The next places from `first` to `end` of two bodies, and these.
+    #[inline(always)]
+    pub(super) fn meeting(&self, first: usize, end: usize) -> Option<(Range<usize>, (u32, u32))> {
+        let empty = |touching: &&Touching| touching.bodies == Touching::NOTHING.bodies;
+        let first = first + self.touching[first..end].iter().take_while(empty).count();
+        let left = &self.touching[first..end];
+        let met = left.first()?.bodies;
+        let count = left.iter().take_while(|touching| touching.bodies == met).count();
+        Some((first..first + count, met))
+    }
+
+    /// The springs of some places after the step before.
+    #[inline(always)]
+    pub(super) fn former(&self, places: Range<usize>) -> impl Iterator<Item = Spring> {
+        self.touching[places].iter().map(|touching| spring(&self.former, touching.spring))
+    }
+
+    /// Takes the new springs of all contacts.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, springs: impl Iterator<Item = Springs>) {
         self.links.springs.clear();
-        self.links.springs.push(Spring::default());
-    }
-
-    /// Number of spheres that touch.
-    pub(super) fn touching(&self) -> usize {
-        self.found
-    }
-
-    /// Those of the touching spheres from `first` on that are of the same two bodies, and the bodies.
-    #[inline(always)]
-    pub(super) fn meeting(&self, first: usize) -> (Range<usize>, (u32, u32)) {
-        let bodies = |touching: &Touching| self.links.all[touching.link as usize].bodies();
-        let met = bodies(&self.touching[first]);
-        let count =
-            self.touching[first..self.found].iter().take_while(|touching| bodies(touching) == met).count();
-        (first..first + count, met)
-    }
-
-    /// Where the touching spheres number `k` are.
-    #[inline(always)]
-    pub(super) fn place(&self, k: usize, setting: &Setting<'_>) -> Place {
-        let Touching { link, spring, arm: [ax, ay, az, _], between: [x, y, z, _] } = self.touching[k];
-        let (ball_a, ball_b) = self.links.all[link as usize].spheres(setting);
-        let between = Vector3::new(x, y, z);
-        Place {
-            arm: Vector3::new(ax, ay, az),
-            between: if between == Vector3::zeros() { Vector3::y() * f64::EPSILON } else { between },
-            reach: ball_a.radius + ball_b.radius,
-            radius: ball_a.radius,
-            curvature: ball_a.curvature + ball_b.curvature,
-            sharpness: ball_a.curvature.max(ball_b.curvature),
-            spring: self.former[spring as usize],
-        }
-    }
-
-    /// Takes the new springs of the next contacts.
-    #[inline]
-    pub(super) fn keep(&mut self, springs: impl Iterator<Item = Spring>) {
+        self.links.springs.push(Springs::AT_REST);
         self.links.springs.extend(springs);
     }
 }

@@ -12,6 +12,7 @@ use super::batch::Place;
 use super::body::{Ball, BodyConstants, Eight, Outline, ROUNDING};
 use super::extents::Extents;
 use super::frames::Frame;
+use super::law::Spring;
 use super::lease::Lease;
 use super::links::LinkDesk;
 use super::side::Side;
@@ -47,7 +48,11 @@ pub(super) struct Setting<'a> {
     pub frames: &'a [Frame],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
+    /// See [`Side::drag`].
+    pub drags: &'a [f64],
     pub materials: usize,
+    /// Whether bodies are of several materials.
+    pub mixed: bool,
     pub skin: f64,
     pub dt: f64,
 }
@@ -76,6 +81,7 @@ impl Setting<'_> {
             inverse_mass: constants.inverse_mass,
             inverse_inertia: constants.inverse_inertia,
             softness: constants.softness,
+            drag: self.drags[body],
         }
     }
 }
@@ -88,7 +94,7 @@ pub(super) struct Scratch {
     near: Candidates,
     /// A new list.
     spheres: Vec<(u16, u16)>,
-    pub places: Vec<Place>,
+    pub places: Vec<(Place, Spring)>,
     /// Facets near a body.
     pub facets: Vec<u32>,
     /// Pairs to look at.

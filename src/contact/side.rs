@@ -14,12 +14,14 @@ pub(super) struct Side<'a> {
     pub inverse_inertia: Vector3<f64>,
     /// Largest response of a contact place to a force there, lever arms included, 1/kg.
     pub softness: f64,
+    /// Share of its motion that the dashpots of the step before could take, at most, 1/s.
+    pub drag: f64,
 }
 
 impl<'a> Side<'a> {
     /// A surface, which nothing moves.
     pub(super) fn surface(motion: &'a Motion) -> Self {
-        Self { motion, inverse_mass: 0.0, inverse_inertia: Vector3::zeros(), softness: 0.0 }
+        Self { motion, inverse_mass: 0.0, inverse_inertia: Vector3::zeros(), softness: 0.0, drag: 0.0 }
     }
 
     /// Share of this side in the response of a contact pattern: |F|²/m + T·I⁻¹T.
@@ -29,9 +31,10 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Most that the dashpots of two bodies may take out of a motion in one step. Explicit dashpots side by side overshoot
-/// where c dt/m sums up to 2, and a body may be held from two sides; the cap vanishes with the step. At 25 steps in a contact
-/// it lets ten spheres that land at once rebound with 0.07 where 0.05 is right, a cap of 0.7 with 0.32.
+/// Most that the dashpots of two bodies may take out of a motion in one step, and twice that with those of all they touch.
+///
+/// Explicit dashpots side by side overshoot where c dt/m sums up to 2 less (ω dt)²/2. The caps vanish with the step. At 25
+/// steps in a contact they let ten spheres that land at once rebound with 0.07 where 0.05 is right.
 pub(super) const DAMPED: f64 = 1.2;
 /// Fewer contacts than this cannot reach that at any step the guards let pass.
 pub(super) const CROWD: usize = 4;

@@ -13,9 +13,6 @@ use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
 use std::cell::RefCell;
 
-/// Contacts that are worked out together at least: what they need stays in the nearest memory.
-const BATCH: usize = 64;
-
 /// What a thread works in: used by one task after another, so that it stays in the nearest memory.
 #[derive(Debug, Default)]
 pub(super) struct Desk {
@@ -76,31 +73,24 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
         }
         scratch.alert = alert;
         links.replaced();
-        links.touch(setting);
+        links.touch(setting, batch);
         let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
         let sides = |a: u32, b: u32| (setting.side(a as usize), setting.side(b as usize));
         let mut first = 0;
-        while first < links.touching() {
-            let (range, (a, b)) = links.meeting(first);
-            first = range.end;
+        while let Some((places, (a, b))) = links.meeting(first, batch.len()) {
+            first = places.end;
             let (side_a, side_b) = sides(a, b);
             let law = setting.law_of(a as usize, b as usize);
-            let shared = batch.meet((a, b), 0, law, (&side_a, &side_b));
-            for k in range {
-                batch.take(&shared, &links.place(k, setting));
-            }
-            if batch.len() >= BATCH || first == links.touching() {
-                batch.work_out(self.laws, &rule, sides);
-                for (exchange, _, springs) in batch.outcome() {
-                    findings.touching.push(exchange);
-                    links.keep(springs);
-                }
-                if self.keep_contacts {
-                    findings.presses.extend(batch.presses(self.laws, setting.dt));
-                }
-                batch.clear();
-            }
+            let springs = links.former(places.clone());
+            batch.meet((a, b), 0, (places, springs), law, (&side_a, &side_b), setting.dt);
         }
+        batch.work_out(self.laws, &rule, sides);
+        findings.touching.extend(batch.outcome().map(|(exchange, ..)| exchange));
+        links.keep(batch.springs());
+        if self.keep_contacts {
+            findings.presses.extend(batch.presses(self.laws, setting.dt));
+        }
+        batch.clear();
         std::mem::swap(&mut links.links, kept);
     }
 }

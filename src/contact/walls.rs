@@ -239,15 +239,9 @@ impl WallList {
             changed |= holds != grip.touching;
             if holds {
                 self.held.push(k as u32);
-                places.push(Place {
-                    arm,
-                    between: surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON),
-                    reach: sphere.radius,
-                    radius: sphere.radius,
-                    curvature: sphere.curvature,
-                    sharpness: sphere.curvature,
-                    spring: grip.spring,
-                });
+                let between = surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON);
+                let (arm, between, radius) = (arm.into(), between.into(), sphere.radius);
+                places.push((Place { arm, between, radius, other: 0.0 }, grip.spring));
             } else if overlap <= 0.0 && boundary.carrier {
                 self.grips[k].until = travelled - overlap;
                 quiet = quiet.min(travelled - overlap);
@@ -260,10 +254,9 @@ impl WallList {
         if !places.is_empty() {
             let law = setting.law(constants.material, boundary.material);
             let sides = (&setting.side(body), &Side::surface(surface));
-            let shared = batch.meet((watch.body, watch.surface), list, law, sides);
-            for place in &*places {
-                batch.take(&shared, place);
-            }
+            let springs = places.iter().map(|(_, spring)| *spring);
+            let places = (batch.add(law, places.iter().map(|(place, _)| place)), springs);
+            batch.meet((watch.body, watch.surface), list, places, law, sides, setting.dt);
         }
     }
 
@@ -299,7 +292,7 @@ impl WallList {
 
     /// The spring of a patch that lets go of a sphere moves to a patch that takes it on in the same step; `places` are
     /// those of the grips that hold.
-    fn hand_over(&mut self, places: &mut [Place]) {
+    fn hand_over(&mut self, places: &mut [(Place, Spring)]) {
         let mut freed = BTreeMap::new();
         let mut held = self.held.iter().peekable();
         for (k, grip) in self.grips.iter_mut().enumerate() {
@@ -309,11 +302,11 @@ impl WallList {
                 freed.insert(grip.sphere, std::mem::take(&mut grip.spring));
             }
         }
-        for (k, place) in self.held.iter().zip(places) {
+        for (k, (_, spring)) in self.held.iter().zip(places) {
             let grip = &mut self.grips[*k as usize];
             if !grip.touching {
                 grip.touching = true;
-                place.spring = freed.remove(&grip.sphere).unwrap_or_default();
+                *spring = freed.remove(&grip.sphere).unwrap_or_default();
             }
         }
     }

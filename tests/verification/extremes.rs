@@ -87,10 +87,10 @@ fn restitution_from_nearly_none_to_one() {
     refused("restitution", &["--set", "pairs[0].restitution=NaN"], &["pairs[0].restitution"]);
 }
 
-/// At most 12 and 5 steps asked for in 731.66 us of contact, as a time and as a number.
+/// At most 10 and 5 steps asked for in 731.66 us of contact, as a time and as a number.
 #[test]
 fn few_steps_are_warned_of_and_too_few_refused() {
-    for [few, too_few] in [["Fixed(Us(60))", "Fixed(Us(146))"], ["PerContact(12)", "PerContact(5)"]] {
+    for [few, too_few] in [["Fixed(Us(73))", "Fixed(Us(146))"], ["PerContact(10)", "PerContact(5)"]] {
         let run = |step: &str, more: &[&str]| {
             let step = format!("time.step={step}");
             let set = ["--set", &step, "--set", "time.frame_interval=Us(146)"];
@@ -101,8 +101,7 @@ fn few_steps_are_warned_of_and_too_few_refused() {
             let record = std::fs::read_to_string(out.path().join("run/run.json")).expect("has a record");
             assert!(record.contains(&format!("only {steps} steps in a contact")), "{record}");
         };
-        // A whole number of steps in a frame: three.
-        warned(run(few, &[]), "15.0");
+        warned(run(few, &[]), "10.0");
         let (code, message, _) = run(too_few, &[]);
         assert_eq!(code, 2, "{message}");
         assert!(
