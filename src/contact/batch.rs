@@ -49,7 +49,7 @@ pub(super) struct Exchange {
 
 /// Two bodies whose contacts are in the batch.
 #[derive(Debug, Clone, Copy)]
-struct Meeting {
+pub(super) struct Meeting {
     a: u32,
     b: u32,
     /// Where their springs belong.
@@ -181,14 +181,20 @@ impl Batch {
         }
     }
 
-    /// What was worked out, in the order in which it was taken: what two bodies do to each other, the list their springs
-    /// belong to, and the springs.
+    /// Who met, in order; see [`Batch::exchange`].
+    pub(super) fn meetings(&self) -> &[Meeting] {
+        &self.meetings
+    }
+
+    /// What was worked out between two bodies.
     #[inline(always)]
-    pub(super) fn outcome(&self) -> impl Iterator<Item = (Exchange, usize, impl Iterator<Item = Spring>)> {
-        self.meetings.iter().map(|meeting| {
-            let springs = meeting.lanes().map(|(at, k)| self.blocks[at].springs.get(k));
-            (meeting.exchange(&self.blocks), meeting.list, springs)
-        })
+    pub(super) fn exchange(&self, meeting: &Meeting) -> Exchange {
+        meeting.exchange(&self.blocks)
+    }
+
+    /// The springs between two bodies, and the list they belong to.
+    pub(super) fn springs_of(&self, meeting: &Meeting) -> (usize, impl Iterator<Item = Spring>) {
+        (meeting.list, meeting.lanes().map(|(at, k)| self.blocks[at].springs.get(k)))
     }
 
     /// The springs of all contacts, in blocks.

@@ -65,7 +65,7 @@ const ZERO: Lanes = [0.0; LANES];
 const ONE: Lanes = [1.0; LANES];
 const ZERO3: Lanes3 = [ZERO; 3];
 
-/// A block of contacts nobody asks for: each lane is worked out, so it must hold numbers.
+/// A block of contacts nobody asks for. Lanes left over are worked out as well, whatever comes of it.
 pub(super) const EMPTY: Block = Block {
     law: 0,
     arm: ZERO3,

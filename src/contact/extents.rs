@@ -19,11 +19,11 @@ impl Extents {
         let [dx, dy, dz] = [direction.x, direction.y, direction.z].map(f32x8::splat);
         let mut most = f32x8::splat(f32::NEG_INFINITY);
         self.each.clear();
-        self.each.extend(outline.eights.iter().map(|&[x, y, z, radius]| {
+        for &[x, y, z, radius] in &outline.eights {
             let extent = dx * f32x8::new(x) + dy * f32x8::new(y) + dz * f32x8::new(z) + f32x8::new(radius);
             most = most.fast_max(extent);
-            extent
-        }));
+            self.each.push(extent);
+        }
         self.most = most.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max);
     }
 

@@ -125,7 +125,7 @@ impl LinkDesk {
     pub(super) fn touch(&mut self, setting: &Setting<'_>, batch: &mut Batch) {
         let Setting { frames, balls, mixed, .. } = *setting;
         let links = &mut self.links.all[..];
-        // A block for each link at most.
+        // Where the law changes a new block begins.
         let room = links.len() * if mixed { LANES } else { 1 };
         if self.touching.len() < room {
             self.touching.resize(room, Touching::NOTHING);

@@ -269,7 +269,7 @@ fn rounding(a: &Outline, b: &Outline) -> f32 {
 }
 
 /// Skin of a new list, m: wider for bodies that move fast against each other.
-#[inline]
+#[inline(always)]
 fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, lease: &Lease) -> f64 {
     let arm = b.rotation * lease.about;
     let there = b.position + arm - a.position;

@@ -75,17 +75,18 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
         links.replaced();
         links.touch(setting, batch);
         let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
-        let sides = |a: u32, b: u32| (setting.side(a as usize), setting.side(b as usize));
         let mut first = 0;
         while let Some((places, (a, b))) = links.meeting(first, batch.len()) {
             first = places.end;
-            let (side_a, side_b) = sides(a, b);
+            let sides = (&setting.side(a as usize), &setting.side(b as usize));
             let law = setting.law_of(a as usize, b as usize);
             let springs = links.former(places.clone());
-            batch.meet((a, b), 0, (places, springs), law, (&side_a, &side_b), setting.dt);
+            batch.meet((a, b), 0, (places, springs), law, sides, setting.dt);
         }
-        batch.work_out(self.laws, &rule, sides);
-        findings.touching.extend(batch.outcome().map(|(exchange, ..)| exchange));
+        batch.work_out(self.laws, &rule, |a, b| (setting.side(a as usize), setting.side(b as usize)));
+        for meeting in batch.meetings() {
+            findings.touching.push(batch.exchange(meeting));
+        }
         links.keep(batch.springs());
         if self.keep_contacts {
             findings.presses.extend(batch.presses(self.laws, setting.dt));
@@ -142,8 +143,9 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
             lists[k].look(watch, k, setting, boundary, scratch, batch);
         }
         batch.work_out(self.laws, &rule, sides);
-        for (exchange, list, springs) in batch.outcome() {
-            findings.touching.push(exchange);
+        for meeting in batch.meetings() {
+            findings.touching.push(batch.exchange(meeting));
+            let (list, springs) = batch.springs_of(meeting);
             lists[list].keep(springs);
         }
         if self.keep_contacts {

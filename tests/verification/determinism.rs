@@ -4,6 +4,7 @@
 
 use super::peers::peers_scene::peers_scene;
 use super::support::{scene, set};
+use pancoat::scene::{PairProperties, PairTable, Scene};
 use pancoat::stepping::Simulation;
 
 fn settled(threads: usize) -> Simulation {
@@ -42,6 +43,22 @@ fn threads_do_not_change_a_bit_of_a_full_bed() {
     for threads in [2, 3, 4, 8, 16, 1] {
         assert_eq!(one, hash(threads), "{threads} threads");
     }
+}
+
+/// Contacts are worked out side by side, those of one law together: what stands beside a contact changes nothing.
+#[test]
+fn a_material_by_two_names_does_not_change_a_bit() {
+    let one = peers_scene("peers20", 0.5, Some(1.5e-4));
+    let mut two = one.clone();
+    two.materials.push(one.materials[0].clone());
+    two.pairs = PairTable::new(3, PairProperties { friction: 0.5, restitution: 0.5 });
+    two.bodies.iter_mut().step_by(2).for_each(|body| body.material = 2);
+    let hash = |scene: &Scene| {
+        let mut simulation = Simulation::new(scene).expect("is built");
+        simulation.run(0, 10, &mut [], &mut |_| true).expect("runs");
+        simulation.state_hash()
+    };
+    assert_eq!(hash(&one), hash(&two));
 }
 
 #[test]
