@@ -77,7 +77,7 @@ pub(super) const EMPTY: Block = Block {
     drift: ZERO3,
     turn: ZERO3,
     spin: ZERO3,
-    springs: Springs { stretch: ZERO3, radius: ONE },
+    springs: Springs::AT_REST,
     normal: ZERO3,
     overlap: ZERO,
     depth: ZERO,

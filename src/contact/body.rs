@@ -10,8 +10,6 @@ pub(super) struct Ball {
     pub center: Vector3<f64>,
     /// m.
     pub radius: f64,
-    /// 1/radius, 1/m.
-    pub curvature: f64,
 }
 
 /// Centres x, y, z and radii of eight spheres, m: in f32, which is enough to tell what cannot touch.
@@ -36,11 +34,7 @@ pub(super) struct Outline {
 
 impl Outline {
     pub(super) fn new(clump: &Clump, first: u32) -> Self {
-        let ball = |s: &crate::shapes::Sphere| Ball {
-            center: s.center,
-            radius: s.radius,
-            curvature: 1.0 / s.radius,
-        };
+        let ball = |s: &crate::shapes::Sphere| Ball { center: s.center, radius: s.radius };
         let balls: Vec<Ball> = clump.spheres.iter().map(ball).collect();
         let eights = balls.chunks(8).map(|balls| {
             let lay = |of: fn(&Ball) -> f64, rest: f32| {

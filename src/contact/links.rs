@@ -135,10 +135,13 @@ impl LinkDesk {
         let (mut count, mut law) = (0_usize, None);
         for link in links {
             let (a, b) = (link.a as usize, link.b as usize);
-            if mixed && law.replace(setting.law_of(a, b)) != Some(setting.law_of(a, b)) {
-                let next = count.next_multiple_of(LANES);
-                touching[count..next].fill(Touching::NOTHING);
-                count = next;
+            if mixed {
+                let own = setting.law_of(a, b);
+                if law.replace(own) != Some(own) {
+                    let next = count.next_multiple_of(LANES);
+                    touching[count..next].fill(Touching::NOTHING);
+                    count = next;
+                }
             }
             let (a, b) = (&frames[a], &frames[b]);
             let (ball_a, ball_b) = (&balls[link.balls.0 as usize], &balls[link.balls.1 as usize]);

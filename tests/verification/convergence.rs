@@ -6,7 +6,7 @@
 //! within 1 % of that of fine steps.
 
 use super::peers::peers_scene::{MASS, MOMENTS, peers_scene};
-use super::support::{run, set};
+use super::support::{kinetic, run, set};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pancoat::scene::{FreeBody, StepChoice};
 use pancoat::stepping::{BodyState, Simulation};
@@ -49,11 +49,6 @@ fn errors_fall_as_derived() {
     }
 }
 
-fn energy(body: &BodyState) -> f64 {
-    let spin = body.orientation.inverse() * body.spin;
-    0.5 * (MASS * body.velocity.norm_squared() + spin.component_mul(&spin).dot(&Vector3::from(MOMENTS)))
-}
-
 /// Share of their energy that two tablets keep when they meet at 0.2 to 0.8 m/s, turned and offset at random: mean over
 /// `count` collisions for each of the `steps` in a contact, and the standard deviation of what each differs by from the first.
 fn kept(count: usize, steps: &[f64]) -> Vec<(f64, f64)> {
@@ -80,6 +75,7 @@ fn kept(count: usize, steps: &[f64]) -> Vec<(f64, f64)> {
                 scene.bodies = bodies.to_vec();
                 scene.time.step = StepChoice::PerContact(*steps);
                 let mut simulation = Simulation::new(&scene).expect("is built");
+                let energy = |body: &BodyState| kinetic(body, MASS, &Vector3::from(MOMENTS));
                 let energies = |s: &Simulation| s.states().iter().map(energy).sum::<f64>();
                 let before = energies(&simulation);
                 simulation.run(0, 1, &mut [], &mut |_| true).expect("runs");

@@ -4,7 +4,7 @@
 //! would overshoot in a step are cut, which vanishes with the step. So are those of a sphere that twelve others hold.
 
 use super::support::{attempt, close, run, scene, set};
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 use pancoat::contact::PairLaw;
 use pancoat::scene::{FreeBody, PairProperties, PairTable, StepChoice};
 use std::f64::consts::{SQRT_2, TAU};
@@ -74,8 +74,6 @@ fn a_sphere_held_from_all_sides_comes_to_rest() {
         position,
         mass,
         velocity,
-        orientation: UnitQuaternion::identity(),
-        spin: Vector3::zeros(),
         ..held.clone()
     };
     let signs = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
