@@ -1,7 +1,6 @@
 //! All contacts of a run.
 
 use super::body::{Ball, BodyConstants, Outline};
-use super::frames::Frame;
 use super::groups::{self, Group};
 use super::law::PairLaw;
 use super::links::Link;
@@ -23,11 +22,20 @@ const CHUNK: usize = 128;
 
 /// Force and torque on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
 pub struct Wrench {
     /// N.
     pub force: Vector3<f64>,
     /// About the centre of mass, N m.
     pub torque: Vector3<f64>,
+}
+
+impl Wrench {
+    /// What `gravity`, m/s², does to a mass, kg.
+    #[inline]
+    pub fn weight(gravity: &Vector3<f64>, mass: f64) -> Self {
+        Self { force: gravity * mass, torque: Vector3::zeros() }
+    }
 }
 
 /// What a body touches.
@@ -68,9 +76,8 @@ pub struct ContactField {
     /// The spheres of all outlines.
     balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
-    frames: Vec<Frame>,
-    /// Of each body, see [`Side::drag`](super::side::Side::drag).
-    drags: Vec<f64>,
+    /// Sum of the normal dashpots on each body in the last step, N s/m.
+    dampings: Vec<f64>,
     pub(super) laws: Vec<PairLaw>,
     materials: usize,
     /// Whether bodies are of several materials.
@@ -111,8 +118,7 @@ impl ContactField {
             outlines,
             balls,
             bodies: Vec::new(),
-            frames: Vec::new(),
-            drags: Vec::new(),
+            dampings: Vec::new(),
             laws: laws.collect(),
             materials: n,
             mixed: false,
@@ -134,7 +140,7 @@ impl ContactField {
         let inverse_inertia = inertia.map(|i| 1.0 / i);
         let inverse_mass = 1.0 / mass;
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
-        self.drags.push(0.0);
+        self.dampings.push(0.0);
         self.mixed |= self.bodies.first().is_some_and(|first| first.material != material);
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
         let surfaces = self.boundaries.len() as u32;
@@ -175,16 +181,13 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
-        self.frames.clear();
-        self.frames.extend(motions.iter().map(Frame::new));
         let setting = Setting {
             outlines: &self.outlines,
             balls: &self.balls,
             bodies: &self.bodies,
             motions,
-            frames: &self.frames,
             odometers,
-            drags: &self.drags,
+            dampings: &self.dampings,
             materials: self.materials,
             mixed: self.mixed,
             skin: self.skin,
@@ -231,11 +234,8 @@ impl ContactField {
     /// Sums over what touches in the order of the lists: the same bits for any number of threads.
     fn gather(&mut self, wrenches: &mut [Wrench]) -> Tally {
         let mut tally = Tally::default();
-        self.drags.fill(0.0);
-        let (drags, bodies) = (&mut self.drags, &self.bodies);
-        let mut drag = |body: u32, damping: f64| {
-            drags[body as usize] += damping * bodies[body as usize].softness;
-        };
+        let dampings = &mut self.dampings;
+        dampings.fill(0.0);
         for torque in &mut self.surface_torques {
             *torque = Vector3::zeros();
         }
@@ -243,7 +243,7 @@ impl ContactField {
             let body = &mut wrenches[exchange.a as usize];
             body.force -= exchange.force;
             body.torque += exchange.torque_a;
-            drag(exchange.a, exchange.damping);
+            dampings[exchange.a as usize] += exchange.damping;
             self.surface_torques[exchange.b as usize] += exchange.torque_b;
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
@@ -257,8 +257,8 @@ impl ContactField {
                 let b = &mut wrenches[exchange.b as usize];
                 b.force += exchange.force;
                 b.torque += exchange.torque_b;
-                drag(exchange.a, exchange.damping);
-                drag(exchange.b, exchange.damping);
+                dampings[exchange.a as usize] += exchange.damping;
+                dampings[exchange.b as usize] += exchange.damping;
                 tally.sphere_contacts += exchange.contacts;
                 tally.deepest = tally.deepest.max(exchange.deepest);
             }

@@ -1,7 +1,7 @@
 //! Near pairs in groups: what one task works on lies together, and a search changes few of them.
 
 use super::links::Links;
-use super::pairs::{Pair, PairList};
+use super::pairs::Pair;
 use super::tasks::Findings;
 
 /// Bodies whose pairs with later bodies make a group: a fixed number, so that results do not depend on the number of
@@ -13,8 +13,6 @@ const BODIES: u32 = 16;
 pub(super) struct Group {
     /// In order.
     pub pairs: Vec<Pair>,
-    /// The lists of `pairs`, in the same order.
-    pub lists: Vec<PairList>,
     /// Spheres of the pairs that may touch, in order.
     pub links: Links,
     pub findings: Findings,
@@ -35,7 +33,6 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
             for key in parted {
                 if let Ok(at) = group.pairs.binary_search_by_key(key, Pair::key) {
                     group.pairs.remove(at);
-                    group.lists.remove(at);
                 }
             }
             group.links.retain(|key| parted.binary_search(&key).is_err());
@@ -46,7 +43,6 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
         for key in met {
             if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
                 group.pairs.insert(at, Pair::new(*key));
-                group.lists.insert(at, PairList::new());
             }
         }
     }

@@ -2,7 +2,6 @@
 
 use super::batch::{Batch, Place};
 use super::block::{LANES, Springs};
-use super::frames::add_less;
 use super::law::Spring;
 use super::pairs::Setting;
 use std::ops::Range;
@@ -123,7 +122,7 @@ impl LinkDesk {
     /// [`LinkDesk::keep`] must follow.
     #[inline(always)]
     pub(super) fn touch(&mut self, setting: &Setting<'_>, batch: &mut Batch) {
-        let Setting { frames, balls, mixed, .. } = *setting;
+        let Setting { motions, balls, mixed, .. } = *setting;
         let links = &mut self.links.all[..];
         // Where the law changes a new block begins.
         let room = links.len() * if mixed { LANES } else { 1 };
@@ -143,17 +142,16 @@ impl LinkDesk {
                     count = next;
                 }
             }
-            let (a, b) = (&frames[a], &frames[b]);
+            let (a, b) = (&motions[a], &motions[b]);
             let (ball_a, ball_b) = (&balls[link.balls.0 as usize], &balls[link.balls.1 as usize]);
-            let arm = a.turn(&ball_a.center);
-            let between = add_less(&a.to(b), &b.turn(&ball_b.center), &arm);
-            let ([arm_x, arm_y, arm_z, _], [x, y, z, _]) = (arm, between);
+            let arm = a.rotation * ball_a.center;
+            let between = (b.position - a.position) + b.rotation * ball_b.center - arm;
             let reach = ball_a.radius + ball_b.radius;
-            let touches = x * x + y * y + z * z < reach * reach;
+            let touches = between.norm_squared() < reach * reach;
             touching[count] = Touching { bodies: link.bodies(), spring: link.spring };
             let place = Place {
-                arm: [arm_x, arm_y, arm_z],
-                between: [x, y, z],
+                arm: arm.into(),
+                between: between.into(),
                 radius: ball_a.radius,
                 other: ball_b.radius,
             };

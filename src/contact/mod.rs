@@ -10,7 +10,6 @@ mod body;
 mod energy;
 mod extents;
 mod field;
-mod frames;
 mod groups;
 #[cfg(test)]
 mod harvest;

@@ -11,7 +11,6 @@
 use super::batch::Place;
 use super::body::{Ball, BodyConstants, Eight, Outline, ROUNDING};
 use super::extents::Extents;
-use super::frames::Frame;
 use super::law::Spring;
 use super::lease::Lease;
 use super::links::LinkDesk;
@@ -21,18 +20,20 @@ use nalgebra::Vector3;
 use wide::f32x8;
 
 /// Two bodies near each other: what is read of them to know whether their list is good.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pair {
     /// Bodies, `a < b`.
-    pub a: u32,
-    pub b: u32,
+    a: u32,
+    b: u32,
     /// Sum of the odometers up to which the list is complete, m.
     mark: f64,
+    /// Kept elsewhere: most pairs are passed over at most steps.
+    list: Box<PairList>,
 }
 
 /// The lease of a pair's list; what it lists are links.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct PairList {
+struct PairList {
     listed: Lease,
     /// Unit vector from a to b along which their surfaces were nearest, a's axes.
     axis: Vector3<f64>,
@@ -45,11 +46,10 @@ pub(super) struct Setting<'a> {
     pub balls: &'a [Ball],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
-    pub frames: &'a [Frame],
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
-    /// See [`Side::drag`].
-    pub drags: &'a [f64],
+    /// Sum of the normal dashpots on each body in the last step, N s/m.
+    pub dampings: &'a [f64],
     pub materials: usize,
     /// Whether bodies are of several materials.
     pub mixed: bool,
@@ -81,7 +81,7 @@ impl Setting<'_> {
             inverse_mass: constants.inverse_mass,
             inverse_inertia: constants.inverse_inertia,
             softness: constants.softness,
-            drag: self.drags[body],
+            drag: self.dampings[body] * constants.softness,
         }
     }
 }
@@ -103,7 +103,8 @@ pub(super) struct Scratch {
 
 impl Pair {
     pub(super) fn new((a, b): (u32, u32)) -> Self {
-        Self { a, b, mark: f64::NEG_INFINITY }
+        let list = PairList { listed: Lease::NONE, axis: Vector3::zeros() };
+        Self { a, b, mark: f64::NEG_INFINITY, list: Box::new(list) }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
@@ -115,39 +116,34 @@ impl Pair {
     pub(super) fn spent(&self, odometers: &[f64]) -> bool {
         self.mark <= odometers[self.a as usize] + odometers[self.b as usize]
     }
-}
 
-impl PairList {
-    pub(super) fn new() -> Self {
-        Self { listed: Lease::NONE, axis: Vector3::zeros() }
-    }
-
-    /// Sees whether the list of `pair` is still complete, and makes it anew if not. Returns whether the
-    /// list is new.
+    /// Sees whether the list is still complete, and makes it anew if not. Returns whether it is new.
     #[inline(always)]
     pub(super) fn renew(
         &mut self,
-        pair: &mut Pair,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
         links: &mut LinkDesk,
     ) -> bool {
-        let (a, b) = (pair.a as usize, pair.b as usize);
+        let (key, list) = (self.key(), &mut *self.list);
+        let (a, b) = (self.a as usize, self.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let (oa, ob) = (setting.outline(a), setting.outline(b));
         let at = mb.seen_from(ma);
-        let mut left = self.listed.left(&at);
-        let anew = !self.listed.holds(left);
+        let mut left = list.listed.left(&at);
+        let anew = !list.listed.holds(left);
         if anew {
-            let skin = skin(setting, ma, mb, &self.listed);
-            self.list([oa, ob], at, skin, scratch);
-            links.replace(pair.key(), (oa.first, ob.first), &scratch.spheres);
-            left = self.listed.allowance;
+            let skin = skin(setting, ma, mb, &list.listed);
+            list.list([oa, ob], at, skin, scratch);
+            links.replace(key, (oa.first, ob.first), &scratch.spheres);
+            left = list.listed.allowance;
         }
-        pair.mark = setting.odometers[a] + setting.odometers[b] + left;
+        self.mark = setting.odometers[a] + setting.odometers[b] + left;
         anew
     }
+}
 
+impl PairList {
     /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.
     #[inline(always)]
     fn list(&mut self, [oa, ob]: [&Outline; 2], at: Relative, skin: f64, scratch: &mut Scratch) {

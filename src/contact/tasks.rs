@@ -61,14 +61,13 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     fn call(self) {
         let Self { setting, .. } = self;
         let Desk { scratch, batch, links } = self.desk;
-        let Group { pairs, lists, links: kept, findings } = self.group;
+        let Group { pairs, links: kept, findings } = self.group;
         findings.clear();
         std::mem::swap(&mut links.links, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
         let count = find(&mut alert, pairs, setting.odometers);
         for &k in &alert[..count] {
-            let k = k as usize;
-            let anew = lists[k].renew(&mut pairs[k], setting, scratch, links);
+            let anew = pairs[k as usize].renew(setting, scratch, links);
             findings.rebuilt += u32::from(anew);
         }
         scratch.alert = alert;

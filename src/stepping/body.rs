@@ -27,7 +27,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Second half of a step's kick (also the first half of the next one).
+    /// Second half of a step's kick.
     #[inline]
     pub(super) fn kick(&mut self, wrench: &Wrench, half_step: f64) {
         self.velocity += wrench.force * (half_step * self.inverse_mass);

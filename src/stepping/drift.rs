@@ -21,10 +21,14 @@ type Lanes3 = [Lanes; 3];
 pub(super) struct Drift<'a> {
     pub bodies: &'a mut [Body],
     pub motions: &'a mut [Motion],
-    /// Forces and torques of the last force evaluation.
-    pub wrenches: &'a [Wrench],
+    /// Forces and torques of the last force evaluation; left behind is what gravity does.
+    pub wrenches: &'a mut [Wrench],
     /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
     pub odometers: &'a mut [f64],
+    /// Half kicks: 2 with the one that ended the last step, else 1.
+    pub kicks: u32,
+    /// m/s².
+    pub gravity: Vector3<f64>,
     /// Angular velocity of the carrier, rad/s.
     pub carrier: Vector3<f64>,
     /// Step, s.
@@ -83,14 +87,19 @@ impl pulp::NullaryFnOnce for Drift<'_> {
 
     #[inline(always)]
     fn call(self) -> bool {
-        let Self { bodies, motions, wrenches, odometers, carrier, dt } = self;
+        let Self { bodies, motions, wrenches, odometers, kicks, gravity, carrier, dt } = self;
         let bodies = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES));
-        let eights = bodies.zip(wrenches.chunks(LANES)).zip(odometers.chunks_mut(LANES));
+        let eights = bodies.zip(wrenches.chunks_mut(LANES)).zip(odometers.chunks_mut(LANES));
         let mut eight = Eight::default();
         let mut astray = 0.0;
         for (((bodies, motions), wrenches), odometers) in eights {
             eight.read(bodies, motions, wrenches);
-            eight.kick(0.5 * dt);
+            for (wrench, body) in wrenches.iter_mut().zip(&*bodies) {
+                *wrench = Wrench::weight(&gravity, body.mass);
+            }
+            for _ in 0..kicks {
+                eight.kick(0.5 * dt);
+            }
             eight.find_turn(&carrier, dt);
             eight.mend_large_turns();
             eight.arrive();

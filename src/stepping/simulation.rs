@@ -46,6 +46,8 @@ pub struct Simulation {
     /// Velocity and spin of each surface.
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
     wrenches: Vec<Wrench>,
+    /// Whether the second half of the last step's kick is still to be made.
+    owing: bool,
     /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
     odometers: Vec<f64>,
     /// Whether some body moves farther in a step than it may, or is nowhere.
@@ -97,6 +99,7 @@ impl Simulation {
             meshes: 0,
             drives: Vec::new(),
             wrenches: Vec::new(),
+            owing: false,
             odometers: Vec::new(),
             astray: false,
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
@@ -201,10 +204,11 @@ impl Simulation {
         self.kinds.push(shape);
         self.motions.push(motion);
         self.odometers.push(0.0);
-        self.wrenches.push(Wrench { force: self.scene.gravity * mass, torque: Vector3::zeros() });
+        self.wrenches.push(Wrench::weight(&self.scene.gravity, mass));
     }
 
-    /// One time step: kick, drift, forces at the new time level, kick.
+    /// One time step: kick, drift, forces at the new time level, kick. The last is made together with the first of the next
+    /// step where nobody looks at the bodies in between.
     fn advance(&mut self) -> Result<(), SimulationError> {
         let dt = self.time_step.step;
         if self.impulses.is_some() {
@@ -214,8 +218,9 @@ impl Simulation {
         self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
         self.feel(dt);
-        for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
-            body.kick(wrench, 0.5 * dt);
+        self.owing = true;
+        if self.audit.is_some() {
+            self.kick();
         }
         if let Some(audit) = &mut self.audit {
             let bodies = (&self.bodies[..], &self.motions[..]);
@@ -225,12 +230,18 @@ impl Simulation {
         self.guard_step()
     }
 
-    /// Forces and torques at the present time level; springs advance by `dt` s.
+    /// Brings velocities to the time of the places.
+    fn kick(&mut self) {
+        if std::mem::take(&mut self.owing) {
+            for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
+                body.kick(wrench, 0.5 * self.time_step.step);
+            }
+        }
+    }
+
+    /// Adds forces and torques of contacts at the present time level to those of gravity; springs advance by `dt` s.
     fn feel(&mut self, dt: f64) {
         let carrier = self.carrier();
-        for (wrench, body) in self.wrenches.iter_mut().zip(&self.bodies) {
-            *wrench = Wrench { force: self.scene.gravity * body.mass, torque: Vector3::zeros() };
-        }
         let (world, motions, odometers) = (&mut self.world, &self.motions[..], &self.odometers[..]);
         let (surfaces, meshes) = (&self.surfaces[..], self.meshes);
         let mut searching = Duration::ZERO;
@@ -257,11 +268,22 @@ impl Simulation {
     }
 
     fn drift(&mut self, dt: f64) {
-        let carrier = self.carrier().spin;
+        let (carrier, gravity) = (self.carrier().spin, self.scene.gravity);
+        let kicks = if std::mem::take(&mut self.owing) { 2 } else { 1 };
         let bodies = self.bodies.par_chunks_mut(CHUNK).zip(self.motions.par_chunks_mut(CHUNK));
-        let chunks = bodies.zip(self.wrenches.par_chunks(CHUNK)).zip(self.odometers.par_chunks_mut(CHUNK));
+        let chunks =
+            bodies.zip(self.wrenches.par_chunks_mut(CHUNK)).zip(self.odometers.par_chunks_mut(CHUNK));
         let drift = |(((bodies, motions), wrenches), odometers)| {
-            pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, odometers, carrier, dt })
+            pulp::Arch::new().dispatch(Drift {
+                bodies,
+                motions,
+                wrenches,
+                odometers,
+                kicks,
+                gravity,
+                carrier,
+                dt,
+            })
         };
         self.astray = chunks.map(drift).reduce(|| false, |one, other| one | other);
         self.step += 1;
@@ -295,6 +317,7 @@ impl Simulation {
         self.torque_steps = 0;
         // All steps inside the pool: handing work to it from outside costs more than a step does.
         rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
+        self.kick();
         self.guard_frame()
     }
 
