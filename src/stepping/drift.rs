@@ -25,14 +25,20 @@ pub(super) struct Drift<'a> {
     pub wrenches: &'a mut [Wrench],
     /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
     pub odometers: &'a mut [f64],
-    /// Half kicks: 2 with the one that ended the last step, else 1.
+    pub stride: Stride,
+}
+
+/// What is the same for all bodies in a step.
+#[derive(Clone, Copy)]
+pub(super) struct Stride {
+    /// Step, s.
+    pub dt: f64,
+    /// Half kicks: 2 with the one that ends the last step, else 1.
     pub kicks: u32,
     /// m/s².
     pub gravity: Vector3<f64>,
     /// Angular velocity of the carrier, rad/s.
     pub carrier: Vector3<f64>,
-    /// Step, s.
-    pub dt: f64,
 }
 
 /// Eight bodies; places left over hold the first one again.
@@ -87,7 +93,8 @@ impl pulp::NullaryFnOnce for Drift<'_> {
 
     #[inline(always)]
     fn call(self) -> bool {
-        let Self { bodies, motions, wrenches, odometers, kicks, gravity, carrier, dt } = self;
+        let Self { bodies, motions, wrenches, odometers, stride } = self;
+        let Stride { dt, kicks, gravity, carrier } = stride;
         let bodies = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES));
         let eights = bodies.zip(wrenches.chunks_mut(LANES)).zip(odometers.chunks_mut(LANES));
         let mut eight = Eight::default();

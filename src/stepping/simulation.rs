@@ -1,7 +1,7 @@
 //! The loop.
 
 use super::body::Body;
-use super::drift::Drift;
+use super::drift::{Drift, Stride};
 use super::energy::EnergyAudit;
 use super::error::SimulationError;
 use super::frame::BodyState;
@@ -268,24 +268,16 @@ impl Simulation {
     }
 
     fn drift(&mut self, dt: f64) {
-        let (carrier, gravity) = (self.carrier().spin, self.scene.gravity);
         let kicks = if std::mem::take(&mut self.owing) { 2 } else { 1 };
+        let stride = Stride { dt, kicks, gravity: self.scene.gravity, carrier: self.carrier().spin };
+        let (wrenches, odometers) =
+            (self.wrenches.par_chunks_mut(CHUNK), self.odometers.par_chunks_mut(CHUNK));
         let bodies = self.bodies.par_chunks_mut(CHUNK).zip(self.motions.par_chunks_mut(CHUNK));
-        let chunks =
-            bodies.zip(self.wrenches.par_chunks_mut(CHUNK)).zip(self.odometers.par_chunks_mut(CHUNK));
         let drift = |(((bodies, motions), wrenches), odometers)| {
-            pulp::Arch::new().dispatch(Drift {
-                bodies,
-                motions,
-                wrenches,
-                odometers,
-                kicks,
-                gravity,
-                carrier,
-                dt,
-            })
+            pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, odometers, stride })
         };
-        self.astray = chunks.map(drift).reduce(|| false, |one, other| one | other);
+        self.astray =
+            bodies.zip(wrenches).zip(odometers).map(drift).reduce(|| false, |one, other| one | other);
         self.step += 1;
         self.move_surfaces();
     }
