@@ -18,9 +18,9 @@ use std::ops::Range;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     /// From a's centre of mass to the centre of its sphere, world axes, m.
-    pub arm: [f64; 3],
+    pub arm: Vector3<f64>,
     /// From there to the centre of b's sphere, or to the place of the surface that is nearest, m.
-    pub between: [f64; 3],
+    pub between: Vector3<f64>,
     /// Radius of a's sphere, m.
     pub radius: f64,
     /// Radius of b's sphere; 0 for a surface, m.

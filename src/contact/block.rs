@@ -102,10 +102,8 @@ impl Block {
     /// Puts a contact into a lane.
     #[inline(always)]
     pub(super) fn put(&mut self, k: usize, place: &Place) {
-        for axis in 0..3 {
-            self.arm[axis][k] = place.arm[axis];
-            self.between[axis][k] = place.between[axis];
-        }
+        set(&mut self.arm, k, &place.arm);
+        set(&mut self.between, k, &place.between);
         self.radius[k] = place.radius;
         self.other[k] = place.other;
     }

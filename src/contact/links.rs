@@ -149,12 +149,7 @@ impl LinkDesk {
             let reach = ball_a.radius + ball_b.radius;
             let touches = between.norm_squared() < reach * reach;
             touching[count] = Touching { bodies: link.bodies(), spring: link.spring };
-            let place = Place {
-                arm: arm.into(),
-                between: between.into(),
-                radius: ball_a.radius,
-                other: ball_b.radius,
-            };
+            let place = Place { arm, between, radius: ball_a.radius, other: ball_b.radius };
             blocks[count / LANES].put(count % LANES, &place);
             link.spring = (LANES + count) as u32 * u32::from(touches);
             count += usize::from(touches);

@@ -240,8 +240,7 @@ impl WallList {
             if holds {
                 self.held.push(k as u32);
                 let between = surface.rotation * nearest.normal * nearest.distance.max(f64::EPSILON);
-                let (arm, between, radius) = (arm.into(), between.into(), sphere.radius);
-                places.push((Place { arm, between, radius, other: 0.0 }, grip.spring));
+                places.push((Place { arm, between, radius: sphere.radius, other: 0.0 }, grip.spring));
             } else if overlap <= 0.0 && boundary.carrier {
                 self.grips[k].until = travelled - overlap;
                 quiet = quiet.min(travelled - overlap);
