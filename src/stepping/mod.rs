@@ -9,6 +9,7 @@ mod fingerprint;
 mod frame;
 mod guard;
 mod impulse;
+mod readings;
 mod settling;
 mod simulation;
 mod stages;

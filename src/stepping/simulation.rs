@@ -26,10 +26,10 @@ const CHUNK: usize = 128;
 #[derive(Clone)]
 pub struct Simulation {
     pub(super) scene: Scene,
-    shapes: Vec<TabletShape>,
-    drum: Option<SurfaceMesh>,
+    pub(super) shapes: Vec<TabletShape>,
+    pub(super) drum: Option<SurfaceMesh>,
     /// What had to be put right in mesh files.
-    repairs: Vec<String>,
+    pub(super) repairs: Vec<String>,
     pub(super) time_step: TimeStep,
     pub(super) step: u64,
     world: World,
@@ -53,9 +53,9 @@ pub struct Simulation {
     /// Whether some body moves farther in a step than it may, or is nowhere.
     pub(super) astray: bool,
     pub(super) rng: ChaCha8Rng,
-    torque_sum: f64,
-    torque_steps: u64,
-    deepest: f64,
+    pub(super) torque_sum: f64,
+    pub(super) torque_steps: u64,
+    pub(super) deepest: f64,
     pub(super) audit: Option<EnergyAudit>,
     pub(super) tally: Tally,
     /// Time, s, and bodies of the last frame that passed all guards.
@@ -313,88 +313,7 @@ impl Simulation {
         self.guard_frame()
     }
 
-    /// Simulated time since the start, s.
-    pub fn clock(&self) -> f64 {
-        self.step as f64 * self.time_step.step
-    }
-
-    /// Steps taken since the start.
-    pub fn steps(&self) -> u64 {
-        self.step
-    }
-
     fn steps_per_frame(&self) -> u64 {
         (self.scene.time.frame_interval / self.time_step.step).round() as u64
-    }
-
-    /// The scene being run.
-    pub fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
-    /// The shapes of the scene, in its order.
-    pub fn shapes(&self) -> &[TabletShape] {
-        &self.shapes
-    }
-
-    /// Shape index of each body.
-    pub fn body_shapes(&self) -> &[usize] {
-        &self.kinds
-    }
-
-    /// Mass of each body, kg.
-    pub fn masses(&self) -> Vec<f64> {
-        self.bodies.iter().map(|b| b.mass).collect()
-    }
-
-    /// The drum's mesh in its own axes.
-    pub fn drum(&self) -> Option<&SurfaceMesh> {
-        self.drum.as_ref()
-    }
-
-    /// What had to be put right in mesh files.
-    pub fn repairs(&self) -> &[String] {
-        &self.repairs
-    }
-
-    /// The time step and its figures.
-    pub fn time_step(&self) -> &TimeStep {
-        &self.time_step
-    }
-
-    /// Contacts of the last step.
-    pub fn tally(&self) -> Tally {
-        self.tally
-    }
-
-    /// Largest overlap so far over the smaller sphere's radius, dimensionless.
-    pub fn deepest_overlap(&self) -> f64 {
-        self.deepest
-    }
-
-    /// Where the run time went.
-    pub fn stopwatch(&self) -> &Stopwatch {
-        &self.stopwatch
-    }
-
-    /// Angle the drum has turned about +z, rad.
-    pub fn drum_angle(&self) -> f64 {
-        self.scene.drum.as_ref().map_or(0.0, |d| d.speed * self.clock())
-    }
-
-    /// Mean torque of the drive over the last frame, N m.
-    pub fn drum_torque(&self) -> f64 {
-        if self.torque_steps == 0 { 0.0 } else { self.torque_sum / self.torque_steps as f64 }
-    }
-
-    /// Pose and motion of all bodies at the present step.
-    pub fn states(&self) -> Vec<BodyState> {
-        let state = |(body, motion): (&Body, &Motion)| BodyState {
-            position: motion.position,
-            orientation: body.orientation,
-            velocity: body.velocity,
-            spin: body.spin(&motion.rotation),
-        };
-        self.bodies.iter().zip(&self.motions).map(state).collect()
     }
 }
