@@ -4,7 +4,7 @@
 use assert_cmd::Command;
 use pancoat::scene::Scene;
 use pancoat::shapes::TabletShape;
-use pancoat::stepping::Simulation;
+use pancoat::stepping::{Frame, Observer, Progress, Simulation, SimulationError};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -178,6 +178,41 @@ fn an_empty_drum_with_a_free_body_runs() {
     simulation.fill(&mut |_| true).expect("nothing waits");
     simulation.run(0, 10, &mut [], &mut |_| true).expect("runs");
     assert!(simulation.states()[0].position.y < -45.0e-3, "it fell");
+}
+
+/// Observers look at a frame while the next one is computed, but miss none however the run ends.
+#[test]
+fn observers_have_seen_all_frames_of_a_run_that_is_stopped() {
+    struct Seen(Vec<(u64, f64)>);
+    impl Observer for Seen {
+        fn observe(&mut self, frame: &Frame<'_>) {
+            self.0.push((frame.index, frame.bodies[0].position.y));
+        }
+    }
+    let text = r#"(
+        format: 1,
+        title: "a falling ball",
+        materials: {"tablet": (shear_modulus: MPa(1), poisson: 0.25)},
+        pairs: [(between: ("tablet", "tablet"), friction: 0.5, restitution: 0.5)],
+        shapes: {"ball": (recipe: Sphere(diameter: Mm(10)))},
+        bodies: [(shape: "ball", material: "tablet", mass: Mg(1300), position: Mm(0, 0, 0))],
+        time: (duration: S(1), frame_interval: Ms(10)),
+    )"#;
+    let scene = Scene::parse(text, "ball.ron", Path::new(""), &[]).expect("is valid");
+    let mut simulation = Simulation::new(&scene).expect("is built");
+    let (mut seen, mut frames) = (Seen(Vec::new()), Vec::new());
+    let mut stop_after_three = |_: &Progress| {
+        frames.push(frames.len() as u64);
+        frames.len() < 3
+    };
+    let ended = simulation.run(0, 10, &mut [&mut seen], &mut stop_after_three);
+    assert!(matches!(ended, Err(SimulationError::Stopped { .. })));
+    let numbers: Vec<u64> = seen.0.iter().map(|(number, _)| *number).collect();
+    assert_eq!(numbers, frames);
+    for (number, y) in seen.0 {
+        let time = 0.01 * (number + 1) as f64;
+        assert!((y + 0.5 * 9.81 * time * time).abs() < 1e-5, "frame {number} at {y} m");
+    }
 }
 
 /// Rows of a table by the names of its columns.

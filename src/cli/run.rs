@@ -102,17 +102,21 @@ impl Session {
     fn frames(&mut self, simulation: &mut Simulation, frames: u64) -> Result<(), Failure> {
         let mut series = self.coating.is_some().then(|| self.directory.series()).transpose()?;
         while self.done < frames {
+            let coating = self.coating.as_ref();
+            let is_due =
+                |done: &u64| done.is_multiple_of(FLUSH_EVERY) || coating.is_some_and(|c| c.is_due(*done));
+            let until = (self.done + 1..frames).find(is_due).unwrap_or(frames);
             let mut observers: Vec<&mut dyn Observer> = Vec::new();
             observers.extend(self.coating.as_mut().map(|c| c as &mut dyn Observer));
             observers.extend(self.bed.as_mut().map(|b| b as &mut dyn Observer));
             observers.extend(self.recorder.as_mut().map(|r| r as &mut dyn Observer));
-            let mut go_on = true;
+            let (first, mut go_on) = (self.done, true);
             let mut note = |progress: &Progress| {
+                self.done += 1;
                 go_on = self.watch.note(progress);
-                true
+                go_on || self.done == until
             };
-            simulation.run(self.done, 1, &mut observers, &mut note)?;
-            self.done += 1;
+            simulation.run(first, until - first, &mut observers, &mut note)?;
             if let (Some(coating), Some(file)) = (&mut self.coating, &mut series)
                 && let Some(cov_intra) = coating.note(self.done, file)?
             {

@@ -34,8 +34,8 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
                 if let Ok(at) = group.pairs.binary_search_by_key(key, Pair::key) {
                     group.pairs.remove(at);
                 }
+                group.links.remove(*key);
             }
-            group.links.retain(|key| parted.binary_search(&key).is_err());
         }
     }
     for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {

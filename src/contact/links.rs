@@ -55,9 +55,11 @@ impl Links {
         touching.map(|link| (link, spring(&self.springs, link.spring)))
     }
 
-    /// Keeps the links of those bodies that stay.
-    pub(super) fn retain(&mut self, stays: impl Fn((u32, u32)) -> bool) {
-        self.all.retain(|link| stays(link.bodies()));
+    /// Lets go of the links of two bodies.
+    pub(super) fn remove(&mut self, bodies: (u32, u32)) {
+        let first = self.all.partition_point(|link| link.bodies() < bodies);
+        let count = self.all[first..].iter().take_while(|link| link.bodies() == bodies).count();
+        self.all.drain(first..first + count);
     }
 }
 

@@ -128,11 +128,14 @@ impl Surface {
             Self::Mesh(all) => all,
         };
         // Points above the inside of a facet are the most frequent, and then no other facet is likely to be nearer.
-        let (mut least, mut above) = (f64::INFINITY, None);
+        let (mut least, mut above, mut others) = (f64::INFINITY, None, f64::INFINITY);
         for &f in facets {
             let (height, past) = all[f as usize].over(p);
             if past < 0.0 && height * height < least {
+                others = others.min(least);
                 (least, above) = (height * height, Some(f));
+            } else {
+                others = others.min(square(height, past));
             }
         }
         let inside = |f: u32| {
@@ -140,7 +143,8 @@ impl Surface {
             (f, normal * normal.dot(&(corners[0] - p)), &[][..])
         };
         let mut best = above.map(inside);
-        for &f in facets {
+        let doubtful = if others < SURELY * least { facets } else { &[] };
+        for &f in doubtful {
             if Some(f) != above && all[f as usize].least(p) < SURELY * least {
                 let (to, shared) = all[f as usize].closest(p);
                 if to.norm_squared() < least {
@@ -155,6 +159,12 @@ impl Surface {
         let normal = if distance > 0.0 { to / distance } else { -all[f as usize].normal };
         Nearest { distance, normal, shared }
     }
+}
+
+/// Square of the least distance of a point so high above a facet's plane and so far past its edges, m².
+#[inline(always)]
+fn square(height: f64, past: f64) -> f64 {
+    height * height + past.max(0.0).powi(2)
 }
 
 impl Facet {
@@ -173,7 +183,7 @@ impl Facet {
     #[inline(always)]
     fn least(&self, p: &Vector3<f64>) -> f64 {
         let (height, past) = self.over(p);
-        height * height + past.max(0.0).powi(2)
+        square(height, past)
     }
 
     /// Vector from `p` to the closest point of the triangle, and the other patches there.

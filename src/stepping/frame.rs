@@ -30,8 +30,8 @@ pub struct Frame<'a> {
     pub drum_torque: f64,
 }
 
-/// Something that looks at every frame of a run.
-pub trait Observer {
+/// Something that looks at every frame of a run, on another thread while the run goes on.
+pub trait Observer: Send {
     /// Takes note of a frame.
     fn observe(&mut self, frame: &Frame<'_>);
 }

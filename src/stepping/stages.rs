@@ -9,6 +9,7 @@ use super::stopwatch::Phase;
 use crate::scene::{Drum, Settle};
 use crate::shapes::ClearRoom;
 use nalgebra::Vector3;
+use std::time::Instant;
 
 /// What a run is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,7 +131,8 @@ impl Simulation {
         Ok(self.clock() - start)
     }
 
-    /// Hands `frames` frames to the observers, numbered from `first`.
+    /// Hands `frames` frames to the observers, numbered from `first`. They look at each while the next one is computed,
+    /// and have seen all that were computed when this returns, with an error or without.
     ///
     /// # Errors
     /// Anything that stops a run.
@@ -142,30 +144,36 @@ impl Simulation {
         watch: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<(), SimulationError> {
         let interval = self.scene.time.frame_interval;
-        for index in first..first + frames {
-            self.advance_frame()?;
-            let states = self.states();
-            let frame = Frame {
-                index,
-                time: (index + 1) as f64 * interval,
-                bodies: &states,
-                drum_angle: self.drum_angle(),
-                drum_torque: self.drum_torque(),
-            };
-            self.stopwatch.skip();
+        let mut show = |frame: Frame<'_>| {
+            let start = Instant::now();
             for observer in observers.iter_mut() {
                 observer.observe(&frame);
             }
-            self.stopwatch.lap(Phase::Observers);
-            let progress = Progress {
-                stage: Stage::Running,
-                time: frame.time,
-                of: (first + frames) as f64 * interval,
-                bodies: states.len(),
-            };
-            self.ask(watch, &progress)?;
+            start.elapsed()
+        };
+        // The last frame, and its bodies.
+        let (mut last, mut states) = (None, Vec::new());
+        let mut ended = Ok(());
+        for index in first..first + frames {
+            let look = || last.take().map(|frame| show(Frame { bodies: &states, ..frame }));
+            let (advanced, looking) = rayon::join(|| self.advance_frame(), look);
+            self.stopwatch.put(Phase::Observers, looking.unwrap_or_default());
+            let time = (index + 1) as f64 * interval;
+            ended = advanced.and_then(|()| {
+                let (drum_angle, drum_torque) = (self.drum_angle(), self.drum_torque());
+                last = Some(Frame { index, time, bodies: &[], drum_angle, drum_torque });
+                states = self.states();
+                let of = (first + frames) as f64 * interval;
+                let progress = Progress { stage: Stage::Running, time, of, bodies: states.len() };
+                self.ask(watch, &progress)
+            });
+            if ended.is_err() {
+                break;
+            }
         }
-        Ok(())
+        let looking = last.map(|frame| show(Frame { bodies: &states, ..frame }));
+        self.stopwatch.put(Phase::Observers, looking.unwrap_or_default());
+        ended
     }
 
     fn ask(

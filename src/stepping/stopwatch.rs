@@ -11,7 +11,7 @@ pub enum Phase {
     Search,
     /// Contact lists and forces.
     Contact,
-    /// Observers.
+    /// Observers, which work beside the other phases where there is a second thread.
     Observers,
 }
 
@@ -47,6 +47,12 @@ impl Stopwatch {
     pub(super) fn split(&mut self, whole: Phase, part: Phase, time: Duration) {
         self.spent[whole as usize] = self.spent[whole as usize].saturating_sub(time);
         self.spent[part as usize] += time;
+    }
+
+    /// Counts `time` for `phase` in place of the running interval, which restarts.
+    pub(super) fn put(&mut self, phase: Phase, time: Duration) {
+        self.spent[phase as usize] += time;
+        self.skip();
     }
 
     /// Seconds per phase, by name.
