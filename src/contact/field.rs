@@ -10,7 +10,7 @@ use super::tasks::{DESK, Findings, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::{DampingMass, Scene};
 use crate::shapes::{SurfaceMesh, TabletShape};
-use crate::world::{FacetTree, Motion, NearChanges};
+use crate::world::{FacetTree, Motion, NearChanges, reorder};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -146,6 +146,22 @@ impl ContactField {
         let surfaces = self.boundaries.len() as u32;
         self.wall_watches.extend((0..surfaces).map(|surface| WallWatch::new(body, surface)));
         self.walls.resize(self.wall_watches.len(), WallList::new());
+    }
+
+    /// Numbers the bodies anew, those whose numbers were `order` from 0 on. Springs stay; no two bodies count as near each
+    /// other until a search says so.
+    pub fn renumber(&mut self, order: &[u32]) {
+        let mut numbers = vec![0; order.len()];
+        for (number, old) in order.iter().enumerate() {
+            numbers[*old as usize] = number as u32;
+        }
+        reorder(&mut self.bodies, order);
+        reorder(&mut self.dampings, order);
+        groups::renumber(&mut self.groups, &numbers);
+        self.wall_watches.iter_mut().for_each(|watch| watch.body = numbers[watch.body as usize]);
+        let mut walls: Vec<_> = self.wall_watches.drain(..).zip(self.walls.drain(..)).collect();
+        walls.sort_unstable_by_key(|(watch, _)| watch.key());
+        (self.wall_watches, self.walls) = walls.into_iter().unzip();
     }
 
     /// Adds a triangle surface with the tree of its facets; must come before the bodies. `carrier`: the surface whose motion

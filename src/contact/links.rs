@@ -23,6 +23,16 @@ impl Link {
     pub(super) fn bodies(&self) -> (u32, u32) {
         (self.a, self.b)
     }
+
+    /// The link with its spring when bodies have other numbers.
+    pub(super) fn renumbered(self, spring: Spring, numbers: &[u32]) -> (Self, Spring) {
+        let (a, b) = (numbers[self.a as usize], numbers[self.b as usize]);
+        if a < b {
+            return (Self { a, b, ..self }, spring);
+        }
+        let balls = (self.balls.1, self.balls.0);
+        (Self { a: b, b: a, balls, ..self }, Spring { stretch: -spring.stretch, ..spring })
+    }
 }
 
 /// The place in [`Links::springs`] of what does not touch.
@@ -49,6 +59,19 @@ impl Default for Links {
 }
 
 impl Links {
+    /// Links that touched in the last step, in order.
+    pub(super) fn of(touching: &[(Link, Spring)]) -> Self {
+        let mut links = Self::default();
+        for (k, (link, spring)) in touching.iter().enumerate() {
+            if k % LANES == 0 {
+                links.springs.push(Springs::AT_REST);
+            }
+            links.springs[1 + k / LANES].set(k % LANES, spring);
+            links.all.push(Link { spring: (LANES + k) as u32, ..*link });
+        }
+        links
+    }
+
     /// Those that touched in the last step, with their springs.
     pub(super) fn touching(&self) -> impl Iterator<Item = (&Link, Spring)> {
         let touching = self.all.iter().filter(|link| link.spring != AT_REST);

@@ -58,6 +58,11 @@ impl WallWatch {
         Self { body, surface, quiet: f64::NEG_INFINITY }
     }
 
+    /// Where it stands among those of all bodies.
+    pub(super) fn key(&self) -> (u32, u32) {
+        (self.body, self.surface)
+    }
+
     /// Whether the list needs work.
     #[inline]
     pub(super) fn alert(&self, odometers: &[f64]) -> bool {

@@ -3,7 +3,7 @@
 use super::simulation::Simulation;
 
 impl Simulation {
-    /// Fingerprint of positions, orientations, velocities, momenta and springs, bit by bit.
+    /// Fingerprint of positions, orientations, velocities, momenta and springs, bit by bit and as they are numbered.
     pub fn state_hash(&self) -> String {
         let mut hasher = blake3::Hasher::new();
         let mut put = |x: f64| {

@@ -19,7 +19,7 @@ impl Simulation {
     /// Refuses bodies that begin deep in each other or in a wall: their springs would shoot them out.
     pub(super) fn guard_start(&self) -> Result<(), SimulationError> {
         let ratio = self.tally.deepest;
-        match self.field.deepest() {
+        match self.deepest_contact() {
             Some((body, partner)) if ratio > MOST_START_OVERLAP => {
                 Err(SimulationError::StartOverlap { body, partner, ratio, most: MOST_START_OVERLAP })
             }
@@ -31,7 +31,7 @@ impl Simulation {
     pub(super) fn guard_step(&self) -> Result<(), SimulationError> {
         let (step, time, dt) = (self.step, self.clock(), self.time_step.step);
         if self.tally.deepest > MOST_OVERLAP
-            && let Some((body, partner)) = self.field.deepest()
+            && let Some((body, partner)) = self.deepest_contact()
         {
             return Err(SimulationError::Overlap { body, partner, step, time, ratio: self.tally.deepest });
         }
@@ -41,7 +41,8 @@ impl Simulation {
             });
             let astray = travels.enumerate().find(|(_, (travel, most))| travel.is_nan() || travel > most);
             if let Some((body, (travel, most))) = astray {
-                let contact = DeepestContact(self.field.deepest());
+                let body = self.number(body);
+                let contact = DeepestContact(self.deepest_contact());
                 let ratio = MOST_TRAVEL * travel / most;
                 return Err(if travel.is_finite() {
                     SimulationError::TooFast { body, step, time, ratio, contact }
@@ -64,6 +65,7 @@ impl Simulation {
                 _ => continue,
             };
             let step_key = self.scene.contact.mode.step_key();
+            let body = self.number(body);
             return Err(SimulationError::Lost { body, place, step, time, step_key });
         }
         self.note_good();

@@ -9,6 +9,7 @@ mod fingerprint;
 mod frame;
 mod guard;
 mod impulse;
+mod numbering;
 mod readings;
 mod settling;
 mod simulation;

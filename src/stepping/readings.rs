@@ -1,6 +1,5 @@
 //! What can be read of a run.
 
-use super::body::Body;
 use super::frame::BodyState;
 use super::simulation::Simulation;
 use super::stopwatch::Stopwatch;
@@ -8,7 +7,6 @@ use super::time_step::TimeStep;
 use crate::contact::Tally;
 use crate::scene::Scene;
 use crate::shapes::{SurfaceMesh, TabletShape};
-use crate::world::Motion;
 
 impl Simulation {
     /// Simulated time since the start, s.
@@ -38,7 +36,7 @@ impl Simulation {
 
     /// Mass of each body, kg.
     pub fn masses(&self) -> Vec<f64> {
-        self.bodies.iter().map(|b| b.mass).collect()
+        self.in_order(|body| self.bodies[body].mass)
     }
 
     /// The drum's mesh in its own axes.
@@ -83,12 +81,14 @@ impl Simulation {
 
     /// Pose and motion of all bodies at the present step.
     pub fn states(&self) -> Vec<BodyState> {
-        let state = |(body, motion): (&Body, &Motion)| BodyState {
-            position: motion.position,
-            orientation: body.orientation,
-            velocity: body.velocity,
-            spin: body.spin(&motion.rotation),
-        };
-        self.bodies.iter().zip(&self.motions).map(state).collect()
+        self.in_order(|k| {
+            let (body, motion) = (&self.bodies[k], &self.motions[k]);
+            BodyState {
+                position: motion.position,
+                orientation: body.orientation,
+                velocity: body.velocity,
+                spin: body.spin(&motion.rotation),
+            }
+        })
     }
 }

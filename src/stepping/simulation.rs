@@ -32,12 +32,14 @@ pub struct Simulation {
     pub(super) repairs: Vec<String>,
     pub(super) time_step: TimeStep,
     pub(super) step: u64,
-    world: World,
+    pub(super) world: World,
     pub(super) field: ContactField,
     /// What moves bodies and solves contacts in place of `world` and `field`, if the scene says so.
-    impulses: Option<ImpulseWorld>,
+    pub(super) impulses: Option<ImpulseWorld>,
     pub(super) bodies: Vec<Body>,
-    /// Shape of each body.
+    /// Number in the scene of each body of the other sequences: see `numbering`.
+    pub(super) numbers: Vec<u32>,
+    /// Shape of each body, in the order of the scene.
     pub(super) kinds: Vec<usize>,
     pub(super) motions: Vec<Motion>,
     surfaces: Vec<Motion>,
@@ -45,11 +47,11 @@ pub struct Simulation {
     meshes: usize,
     /// Velocity and spin of each surface.
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
-    wrenches: Vec<Wrench>,
+    pub(super) wrenches: Vec<Wrench>,
     /// Whether the second half of the last step's kick is still to be made.
     owing: bool,
     /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
-    odometers: Vec<f64>,
+    pub(super) odometers: Vec<f64>,
     /// Whether some body moves farther in a step than it may, or is nowhere.
     pub(super) astray: bool,
     pub(super) rng: ChaCha8Rng,
@@ -93,6 +95,7 @@ impl Simulation {
                 ContactMode::Impulse { .. } => Some(ImpulseWorld::new(scene.pairs.clone(), &scene.gravity)),
             },
             bodies: Vec::new(),
+            numbers: Vec::new(),
             kinds: Vec::new(),
             motions: Vec::new(),
             surfaces: Vec::new(),
@@ -201,6 +204,7 @@ impl Simulation {
             reach: clump.reach(),
             most_travel: MOST_TRAVEL * clump.smallest_radius(),
         });
+        self.numbers.push(self.kinds.len() as u32);
         self.kinds.push(shape);
         self.motions.push(motion);
         self.odometers.push(0.0);
@@ -310,7 +314,9 @@ impl Simulation {
         // All steps inside the pool: handing work to it from outside costs more than a step does.
         rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
         self.kick();
-        self.guard_frame()
+        self.guard_frame()?;
+        self.number_by_place(self.steps_per_frame());
+        Ok(())
     }
 
     fn steps_per_frame(&self) -> u64 {

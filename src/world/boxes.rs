@@ -24,6 +24,11 @@ impl Boxes {
         self.put.push(body);
     }
 
+    /// All bodies, near ones following each other.
+    pub(super) fn by_place(&self) -> Vec<u32> {
+        self.tree.leaves(|_| true).collect()
+    }
+
     /// Whether no box was put since the last call of [`Boxes::changes`].
     pub(super) fn unchanged(&self) -> bool {
         self.put.is_empty()

@@ -211,9 +211,32 @@ impl World {
         NearChanges { parted, met: self.hooks.take() }
     }
 
+    /// The tablets in an order in which near ones follow each other: all that a search has seen.
+    pub fn by_place(&self) -> Vec<u32> {
+        self.boxes.by_place()
+    }
+
+    /// Numbers the tablets anew, those whose numbers were `order` from 0 on; no two count as near each other until the
+    /// next search.
+    pub fn renumber(&mut self, order: &[u32]) {
+        reorder(&mut self.tablets, order);
+        reorder(&mut self.tracks, order);
+        for (number, (body, _)) in self.tablets.iter().enumerate() {
+            self.bodies[*body].user_data = number as u128;
+        }
+        self.tracks.iter_mut().for_each(|track| track.known = Relative::NOWHERE);
+        self.marks.fill(f64::NEG_INFINITY);
+        self.boxes = Boxes::default();
+    }
+
     fn pair(&self, a: u32, b: u32) -> ColliderPair {
         ColliderPair::new(self.tablets[a as usize].1, self.tablets[b as usize].1)
     }
+}
+
+/// Brings items into the order of numbers that they have now.
+pub fn reorder<T: Clone>(items: &mut Vec<T>, order: &[u32]) {
+    *items = order.iter().map(|number| items[*number as usize].clone()).collect();
 }
 
 fn to_f32(v: &Vector3<f64>) -> Vec3 {
