@@ -38,6 +38,12 @@ impl Link {
 /// The place in [`Links::springs`] of what does not touch.
 const AT_REST: u32 = 0;
 
+/// Where the links of two bodies are among sorted ones.
+fn places_of(links: &[Link], bodies: (u32, u32)) -> Range<usize> {
+    let first = links.partition_point(|link| link.bodies() < bodies);
+    first..first + links[first..].iter().take_while(|link| link.bodies() == bodies).count()
+}
+
 /// The spring at a place.
 #[inline(always)]
 fn spring(springs: &[Springs], at: u32) -> Spring {
@@ -80,9 +86,7 @@ impl Links {
 
     /// Lets go of the links of two bodies.
     pub(super) fn remove(&mut self, bodies: (u32, u32)) {
-        let first = self.all.partition_point(|link| link.bodies() < bodies);
-        let count = self.all[first..].iter().take_while(|link| link.bodies() == bodies).count();
-        self.all.drain(first..first + count);
+        self.all.drain(places_of(&self.all, bodies));
     }
 }
 
@@ -120,10 +124,10 @@ impl LinkDesk {
     /// `first` are the places of the bodies' first spheres in [`Setting::balls`].
     pub(super) fn replace(&mut self, (a, b): (u32, u32), first: (u32, u32), spheres: &[(u16, u16)]) {
         let left = &self.links.all[self.passed..];
-        let (before, left) = left.split_at(left.partition_point(|link| link.bodies() < (a, b)));
-        let old = &left[..left.iter().take_while(|link| link.bodies() == (a, b)).count()];
-        self.passed += before.len() + old.len();
-        self.next.extend_from_slice(before);
+        let places = places_of(left, (a, b));
+        let old = &left[places.clone()];
+        self.passed += places.end;
+        self.next.extend_from_slice(&left[..places.start]);
         let mut old = old.iter().peekable();
         self.next.extend(spheres.iter().map(|&(i, j)| {
             let balls = (first.0 + u32::from(i), first.1 + u32::from(j));

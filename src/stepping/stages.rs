@@ -162,7 +162,8 @@ impl Simulation {
             ended = advanced.and_then(|()| {
                 let (drum_angle, drum_torque) = (self.drum_angle(), self.drum_torque());
                 last = Some(Frame { index, time, bodies: &[], drum_angle, drum_torque });
-                states = self.states();
+                // Noted by the guards of the frame.
+                states.clone_from(&self.good.1);
                 let of = (first + frames) as f64 * interval;
                 let progress = Progress { stage: Stage::Running, time, of, bodies: states.len() };
                 self.ask(watch, &progress)
