@@ -1,5 +1,6 @@
 //! What contact knows of each body beside its motion.
 
+use super::sieve::Grains;
 use crate::shapes::Clump;
 use nalgebra::Vector3;
 
@@ -28,12 +29,15 @@ pub(super) struct Outline {
     pub bounding_radius: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
     pub reach: f64,
+    /// The spheres once more.
+    pub grains: Vec<Grains>,
     /// The spheres once more. Places left over hold a sphere of radius −∞.
     pub eights: Vec<Eight>,
 }
 
 impl Outline {
-    pub(super) fn new(clump: &Clump, first: u32) -> Self {
+    /// `grain` in m.
+    pub(super) fn new(clump: &Clump, first: u32, grain: f64) -> Self {
         let ball = |s: &crate::shapes::Sphere| Ball { center: s.center, radius: s.radius };
         let balls: Vec<Ball> = clump.spheres.iter().map(ball).collect();
         let eights = balls.chunks(8).map(|balls| {
@@ -46,6 +50,7 @@ impl Outline {
         Self {
             bounding_radius: clump.bounding_radius(),
             reach: clump.reach(),
+            grains: balls.iter().map(|ball| Grains::of(ball, grain)).collect(),
             eights: eights.collect(),
             balls,
             first,

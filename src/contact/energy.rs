@@ -72,8 +72,9 @@ impl ContactField {
             law: &self.laws[press.law],
         };
         let touching = |group: &'a Group| group.links.touching().zip(&group.findings.presses);
-        let pairs = self.groups.iter().flat_map(touching).map(move |((link, _), press)| {
-            state(press, link.a, Partner::Body(link.b as usize), self.spheres(link))
+        let pairs = self.groups.iter().flat_map(touching).map(move |(grasp, press)| {
+            let (a, b) = grasp.bodies;
+            state(press, a, Partner::Body(b as usize), self.spheres(&grasp))
         });
         let grips = self.wall_watches.iter().zip(&self.walls).flat_map(|(watch, list)| {
             list.grips.iter().filter(|grip| grip.touching).map(move |grip| (watch, grip))

@@ -3,8 +3,9 @@
 use super::body::{Ball, BodyConstants, Outline};
 use super::groups::{self, Group};
 use super::law::PairLaw;
-use super::links::Link;
+use super::links::Grasp;
 use super::pairs::Setting;
+use super::sieve::{GRAIN, Pose};
 use super::surface::Surface;
 use super::tasks::{DESK, Findings, PairTask, WallTask};
 use super::walls::{Boundary, WallList, WallWatch};
@@ -76,6 +77,8 @@ pub struct ContactField {
     /// The spheres of all outlines.
     balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
+    /// Of the bodies in this step, if not all are single spheres.
+    poses: Vec<Pose>,
     /// Sum of the normal dashpots on each body in the last step, N s/m.
     dampings: Vec<f64>,
     pub(super) laws: Vec<PairLaw>,
@@ -86,6 +89,8 @@ pub struct ContactField {
     /// Whether single contacts are kept for [`ContactField::contacts`].
     pub(super) keep_contacts: bool,
     skin: f64,
+    /// m.
+    grain: f64,
     /// Of each task over pairs.
     pub(super) groups: Vec<Group>,
     boundaries: Vec<Boundary>,
@@ -101,14 +106,15 @@ pub struct ContactField {
 impl ContactField {
     /// A field without bodies and surfaces.
     pub fn new(scene: &Scene, shapes: &[TabletShape]) -> Self {
+        let largest = shapes.iter().map(|shape| shape.clump.bounding_radius()).fold(0.0, f64::max);
+        let grain = GRAIN * largest;
         let mut balls = Vec::new();
         let outlines = shapes.iter().map(|shape| {
-            let outline = Outline::new(&shape.clump, balls.len() as u32);
+            let outline = Outline::new(&shape.clump, balls.len() as u32, grain);
             balls.extend_from_slice(&outline.balls);
             outline
         });
         let outlines: Vec<_> = outlines.collect();
-        let largest = outlines.iter().map(|o| o.bounding_radius).fold(0.0, f64::max);
         let n = scene.materials.len();
         let laws = (0..n * n).map(|k| {
             let (a, b) = (k / n, k % n);
@@ -118,6 +124,7 @@ impl ContactField {
             outlines,
             balls,
             bodies: Vec::new(),
+            poses: Vec::new(),
             dampings: Vec::new(),
             laws: laws.collect(),
             materials: n,
@@ -125,6 +132,7 @@ impl ContactField {
             damping: scene.contact.damping_mass,
             keep_contacts: false,
             skin: SKIN * largest,
+            grain,
             groups: Vec::new(),
             boundaries: Vec::new(),
             wall_watches: Vec::new(),
@@ -197,11 +205,17 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
+        let single = self.balls.iter().all(|ball| ball.center == Vector3::zeros());
+        self.poses.clear();
+        if !single {
+            self.poses.extend(motions.iter().map(|motion| Pose::of(motion, self.grain)));
+        }
         let setting = Setting {
             outlines: &self.outlines,
             balls: &self.balls,
             bodies: &self.bodies,
             motions,
+            poses: (!single).then_some(&self.poses),
             odometers,
             dampings: &self.dampings,
             materials: self.materials,
@@ -297,17 +311,17 @@ impl ContactField {
         self.surface_torques[surface]
     }
 
-    /// The numbers of the spheres of a link in their bodies.
-    pub(super) fn spheres(&self, link: &Link) -> (u32, u32) {
+    /// The numbers of touching spheres in their bodies.
+    pub(super) fn spheres(&self, Grasp { bodies, balls, .. }: &Grasp) -> (u32, u32) {
         let first = |body: u32| self.outlines[self.bodies[body as usize].shape].first;
-        (link.balls.0 - first(link.a), link.balls.1 - first(link.b))
+        (balls.0 - first(bodies.0), balls.1 - first(bodies.1))
     }
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let pairs = self.groups.iter().flat_map(|group| group.links.touching()).map(|(link, spring)| {
-            let (i, j) = self.spheres(link);
-            (link.a, link.b, i, j, spring.stretch)
+        let pairs = self.groups.iter().flat_map(|group| group.links.touching()).map(|grasp| {
+            let (i, j) = self.spheres(&grasp);
+            (grasp.bodies.0, grasp.bodies.1, i, j, grasp.spring.stretch)
         });
         let walls = self.wall_watches.iter().zip(&self.walls).flat_map(|(w, list)| {
             let touching = list.grips.iter().filter(|g| g.touching);

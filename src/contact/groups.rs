@@ -51,10 +51,10 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
 /// The groups when bodies have other `numbers`: of the pairs only what touches is left.
 pub(super) fn renumber(groups: &mut Vec<Group>, numbers: &[u32]) {
     let touching = groups.iter().flat_map(|group| group.links.touching());
-    let mut touching: Vec<_> = touching.map(|(link, spring)| link.renumbered(spring, numbers)).collect();
-    touching.sort_unstable_by_key(|(link, _)| (link.bodies(), link.balls));
+    let mut touching: Vec<_> = touching.map(|grasp| grasp.renumbered(numbers)).collect();
+    touching.sort_unstable_by_key(|grasp| (grasp.bodies, grasp.balls));
     *groups = vec![Group::default(); numbers.len().div_ceil(BODIES as usize)];
-    for touching in touching.chunk_by(|(x, _), (y, _)| group(x.a) == group(y.a)) {
-        groups[group(touching[0].0.a)].links = Links::of(touching);
+    for touching in touching.chunk_by(|x, y| group(x.bodies.0) == group(y.bodies.0)) {
+        groups[group(touching[0].bodies.0)].links = Links::of(touching);
     }
 }

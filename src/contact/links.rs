@@ -1,103 +1,242 @@
-//! The sphere pairs of near bodies that may touch, in one sequence: read through once a step. Those that touch have a spring.
+//! The sphere pairs of near bodies that may touch before their lists are made anew, in one sequence. Sieves tell which may
+//! touch in a step; only those are measured. What touches has a spring.
 
 use super::batch::{Batch, Place};
 use super::block::{LANES, Springs};
+use super::body::Outline;
 use super::law::Spring;
 use super::pairs::Setting;
+use super::sieve::{Pose, Sieve};
+use nalgebra::Vector3;
 use std::ops::Range;
 
-/// A sphere of body a and one of body b.
+/// Two spheres that touched in the last step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Link {
-    pub a: u32,
-    pub b: u32,
+pub(super) struct Grasp {
+    /// The bodies.
+    pub bodies: (u32, u32),
     /// Where the spheres stand in [`Setting::balls`].
     pub balls: (u32, u32),
-    /// Where its spring stands in [`Links::springs`].
-    spring: u32,
+    pub spring: Spring,
 }
 
-impl Link {
-    /// The bodies.
-    #[inline]
-    pub(super) fn bodies(&self) -> (u32, u32) {
-        (self.a, self.b)
-    }
-
-    /// The link with its spring when bodies have other numbers.
-    pub(super) fn renumbered(self, spring: Spring, numbers: &[u32]) -> (Self, Spring) {
-        let (a, b) = (numbers[self.a as usize], numbers[self.b as usize]);
+impl Grasp {
+    /// The same when bodies have other numbers.
+    pub(super) fn renumbered(self, numbers: &[u32]) -> Self {
+        let Self { bodies, balls, spring } = self;
+        let (a, b) = (numbers[bodies.0 as usize], numbers[bodies.1 as usize]);
         if a < b {
-            return (Self { a, b, ..self }, spring);
+            return Self { bodies: (a, b), ..self };
         }
-        let balls = (self.balls.1, self.balls.0);
-        (Self { a: b, b: a, balls, ..self }, Spring { stretch: -spring.stretch, ..spring })
+        let spring = Spring { stretch: -spring.stretch, ..spring };
+        Self { bodies: (b, a), balls: (balls.1, balls.0), spring }
     }
 }
 
-/// The place in [`Links::springs`] of what does not touch.
+/// A sphere of body a and one of body b.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link {
+    a: u32,
+    b: u32,
+    /// Where the spheres stand in [`Setting::balls`].
+    balls: (u32, u32),
+    /// The step in which it touched last, and where its spring stands in the springs of that step.
+    touched: (u32, u32),
+}
+
+/// A place in the sequences: links and sieves before it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Cursor {
+    link: usize,
+    sieve: usize,
+}
+
+/// The place of a spring at rest.
 const AT_REST: u32 = 0;
 
-/// Where the links of two bodies are among sorted ones.
-fn places_of(links: &[Link], bodies: (u32, u32)) -> Range<usize> {
-    let first = links.partition_point(|link| link.bodies() < bodies);
-    first..first + links[first..].iter().take_while(|link| link.bodies() == bodies).count()
-}
-
-/// The spring at a place.
-#[inline(always)]
-fn spring(springs: &[Springs], at: u32) -> Spring {
-    springs[at as usize / LANES].get(at as usize % LANES)
-}
-
-/// The links of many bodies, sorted by bodies and spheres, and what springs they have.
+/// Links of many bodies.
 #[derive(Debug, Clone)]
 pub(super) struct Links {
+    /// Sorted by bodies and balls.
     all: Vec<Link>,
+    /// Of the same links, up to eight of two bodies each.
+    sieves: Vec<Sieve>,
     /// Eight at rest, then those of the links that touched in the last step, in their order.
     springs: Vec<Springs>,
+    /// The last step.
+    step: u32,
 }
 
 impl Default for Links {
     fn default() -> Self {
-        Self { all: Vec::new(), springs: vec![Springs::AT_REST] }
+        Self { all: Vec::new(), sieves: Vec::new(), springs: vec![Springs::AT_REST], step: 1 }
     }
 }
 
 impl Links {
-    /// Links that touched in the last step, in order.
-    pub(super) fn of(touching: &[(Link, Spring)]) -> Self {
+    /// Links that touched in the last step, sorted, of pairs whose lists are all to be made anew.
+    pub(super) fn of(touching: &[Grasp]) -> Self {
         let mut links = Self::default();
-        for (k, (link, spring)) in touching.iter().enumerate() {
+        for (k, Grasp { bodies: (a, b), balls, spring }) in touching.iter().enumerate() {
             if k % LANES == 0 {
                 links.springs.push(Springs::AT_REST);
             }
             links.springs[1 + k / LANES].set(k % LANES, spring);
-            links.all.push(Link { spring: (LANES + k) as u32, ..*link });
+            let touched = (links.step, (LANES + k) as u32);
+            links.all.push(Link { a: *a, b: *b, balls: *balls, touched });
+        }
+        for same in touching.chunk_by(|x, y| x.bodies == y.bodies) {
+            links.sieves.extend(same.chunks(LANES).map(|same| Sieve::closed(same[0].bodies, same.len())));
         }
         links
     }
 
-    /// Those that touched in the last step, with their springs.
-    pub(super) fn touching(&self) -> impl Iterator<Item = (&Link, Spring)> {
-        let touching = self.all.iter().filter(|link| link.spring != AT_REST);
-        touching.map(|link| (link, spring(&self.springs, link.spring)))
+    /// Those that touched in the last step, in order.
+    pub(super) fn touching(&self) -> impl Iterator<Item = Grasp> {
+        let touching = self.all.iter().filter(|link| link.touched.0 == self.step);
+        touching.map(|link| {
+            let Link { a, b, balls, touched } = *link;
+            Grasp { bodies: (a, b), balls, spring: spring(&self.springs, touched.1) }
+        })
+    }
+
+    /// Moves a cursor on while it is at bodies that it is to `pass`.
+    fn seek(&self, at: &mut Cursor, pass: impl Fn((u32, u32)) -> bool) {
+        while let Some(sieve) = self.sieves.get(at.sieve).filter(|sieve| pass(sieve.bodies)) {
+            *at = Cursor { link: at.link + sieve.len as usize, sieve: at.sieve + 1 };
+        }
+    }
+
+    /// Where the links and sieves of two bodies are. The cursor is at or before them, and behind them afterwards.
+    fn places_of(&self, bodies: (u32, u32), at: &mut Cursor) -> (Range<usize>, Range<usize>) {
+        self.seek(at, |other| other < bodies);
+        let first = *at;
+        self.seek(at, |other| other == bodies);
+        (first.link..at.link, first.sieve..at.sieve)
     }
 
     /// Lets go of the links of two bodies.
     pub(super) fn remove(&mut self, bodies: (u32, u32)) {
-        self.all.drain(places_of(&self.all, bodies));
+        let (links, sieves) = self.places_of(bodies, &mut Cursor::default());
+        self.all.drain(links);
+        self.sieves.drain(sieves);
+    }
+
+    /// Puts new links of two bodies in the place of their old ones: `spheres` by their numbers, in order. The cursor is at or
+    /// before them, and behind them afterwards. `next` is memory to work in.
+    pub(super) fn replace(
+        &mut self,
+        at: &mut Cursor,
+        bodies: (u32, u32),
+        outlines: [&Outline; 2],
+        spheres: &[(u16, u16)],
+        next: &mut Vec<Link>,
+    ) {
+        let ((a, b), first) = (bodies, outlines.map(|outline| outline.first));
+        let (places, sieves) = self.places_of(bodies, at);
+        let mut known = self.all[places.clone()].iter().peekable();
+        next.clear();
+        next.extend(spheres.iter().map(|&(i, j)| {
+            let balls = (first[0] + u32::from(i), first[1] + u32::from(j));
+            while known.next_if(|link| link.balls < balls).is_some() {}
+            let known = known.next_if(|link| link.balls == balls);
+            Link { a, b, balls, touched: known.map_or((0, AT_REST), |link| link.touched) }
+        }));
+        let sieve = |spheres: &[(u16, u16)]| Sieve::of(bodies, outlines, spheres);
+        *at = Cursor {
+            link: places.start + spheres.len(),
+            sieve: sieves.start + spheres.len().div_ceil(LANES),
+        };
+        self.all.splice(places, next.iter().copied());
+        self.sieves.splice(sieves, spheres.chunks(LANES).map(sieve));
+    }
+
+    /// Puts the numbers of the links that may touch first in `near`, and returns how many there are.
+    #[inline(always)]
+    fn sift(&self, poses: Option<&[Pose]>, near: &mut [u32]) -> usize {
+        let Some(poses) = poses else {
+            for (near, k) in near[..self.all.len()].iter_mut().zip(0..) {
+                *near = k;
+            }
+            return self.all.len();
+        };
+        let (mut first, mut found) = (0, 0);
+        for sieve in &self.sieves {
+            let (a, b) = sieve.bodies;
+            let picked = sieve.passed(&poses[a as usize], &poses[b as usize]);
+            for (near, k) in near[found..found + LANES].iter_mut().zip(&picked.numbers) {
+                *near = first + u32::from(*k);
+            }
+            first += sieve.len;
+            found += picked.count;
+        }
+        found
+    }
+
+    /// Finds what touches and puts it into an empty batch. No branch depends on the outcome: none could be foreseen.
+    /// [`Links::keep`] must follow.
+    #[inline(always)]
+    pub(super) fn touch(&mut self, desk: &mut LinkDesk, setting: &Setting<'_>, batch: &mut Batch) {
+        let Setting { motions, poses, balls, mixed, .. } = *setting;
+        let LinkDesk { near, touching, .. } = desk;
+        let before = self.step;
+        self.step = before.wrapping_add(1);
+        // Where the law changes a new block begins.
+        let room = LANES + self.all.len() * if mixed { LANES } else { 1 };
+        if touching.len() < room {
+            touching.resize(room, Touching::NOTHING);
+            near.resize(room, 0);
+        }
+        let blocks = batch.room(room);
+        let found = self.sift(poses, near);
+        let links = &mut self.all[..];
+        let (mut count, mut law) = (0_usize, None);
+        for &near in &near[..found] {
+            let link = &mut links[near as usize];
+            let (a, b) = (link.a as usize, link.b as usize);
+            if mixed {
+                let own = setting.law_of(a, b);
+                if law.replace(own) != Some(own) {
+                    let next = count.next_multiple_of(LANES);
+                    touching[count..next].fill(Touching::NOTHING);
+                    count = next;
+                }
+            }
+            let (a, b) = (&motions[a], &motions[b]);
+            let (ball_a, ball_b) = (&balls[link.balls.0 as usize], &balls[link.balls.1 as usize]);
+            let mut arm = Vector3::zeros();
+            let mut between = b.position - a.position;
+            if poses.is_some() {
+                arm = a.rotation * ball_a.center;
+                between = between + b.rotation * ball_b.center - arm;
+            }
+            let reach = ball_a.radius + ball_b.radius;
+            let touches = between.norm_squared() < reach * reach;
+            let spring = if link.touched.0 == before { link.touched.1 } else { AT_REST };
+            touching[count] = Touching { bodies: (link.a, link.b), spring };
+            let place = Place { arm, between, radius: ball_a.radius, other: ball_b.radius };
+            blocks[count / LANES].put(count % LANES, &place);
+            link.touched = (if touches { self.step } else { 0 }, (LANES + count) as u32);
+            count += usize::from(touches);
+        }
+        batch.take(count);
+        std::mem::swap(&mut self.springs, &mut desk.former);
+    }
+
+    /// Takes the new springs of all contacts.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, springs: impl Iterator<Item = Springs>) {
+        self.springs.clear();
+        self.springs.push(Springs::AT_REST);
+        self.springs.extend(springs);
     }
 }
 
 /// Where links are worked on.
 #[derive(Debug, Default)]
 pub(super) struct LinkDesk {
-    pub links: Links,
-    /// Memory for the next sequence.
-    next: Vec<Link>,
-    /// Those before this one are in `next`.
-    passed: usize,
+    /// Numbers of the links that may touch, and memory left over.
+    near: Vec<u32>,
     /// What touches, by its place in the batch, and memory left over.
     touching: Vec<Touching>,
     /// The springs of the step before.
@@ -118,75 +257,6 @@ impl Touching {
 }
 
 impl LinkDesk {
-    /// Puts new links of two bodies in the place of their old ones: spheres in order, bodies in order from call to call.
-    /// [`LinkDesk::replaced`] must follow.
-    ///
-    /// `first` are the places of the bodies' first spheres in [`Setting::balls`].
-    pub(super) fn replace(&mut self, (a, b): (u32, u32), first: (u32, u32), spheres: &[(u16, u16)]) {
-        let left = &self.links.all[self.passed..];
-        let places = places_of(left, (a, b));
-        let old = &left[places.clone()];
-        self.passed += places.end;
-        self.next.extend_from_slice(&left[..places.start]);
-        let mut old = old.iter().peekable();
-        self.next.extend(spheres.iter().map(|&(i, j)| {
-            let balls = (first.0 + u32::from(i), first.1 + u32::from(j));
-            while old.next_if(|link| link.balls < balls).is_some() {}
-            let known = old.next_if(|link| link.balls == balls);
-            Link { a, b, balls, spring: known.map_or(AT_REST, |link| link.spring) }
-        }));
-    }
-
-    /// Ends the replacing.
-    pub(super) fn replaced(&mut self) {
-        if self.passed > 0 || !self.next.is_empty() {
-            self.next.extend_from_slice(&self.links.all[self.passed..]);
-            std::mem::swap(&mut self.links.all, &mut self.next);
-            self.next.clear();
-            self.passed = 0;
-        }
-    }
-
-    /// Finds what touches and puts it into an empty batch. No branch depends on the outcome: none could be foreseen.
-    /// [`LinkDesk::keep`] must follow.
-    #[inline(always)]
-    pub(super) fn touch(&mut self, setting: &Setting<'_>, batch: &mut Batch) {
-        let Setting { motions, balls, mixed, .. } = *setting;
-        let links = &mut self.links.all[..];
-        // Where the law changes a new block begins.
-        let room = links.len() * if mixed { LANES } else { 1 };
-        if self.touching.len() < room {
-            self.touching.resize(room, Touching::NOTHING);
-        }
-        let touching = &mut self.touching[..];
-        let blocks = batch.room(room);
-        let (mut count, mut law) = (0_usize, None);
-        for link in links {
-            let (a, b) = (link.a as usize, link.b as usize);
-            if mixed {
-                let own = setting.law_of(a, b);
-                if law.replace(own) != Some(own) {
-                    let next = count.next_multiple_of(LANES);
-                    touching[count..next].fill(Touching::NOTHING);
-                    count = next;
-                }
-            }
-            let (a, b) = (&motions[a], &motions[b]);
-            let (ball_a, ball_b) = (&balls[link.balls.0 as usize], &balls[link.balls.1 as usize]);
-            let arm = a.rotation * ball_a.center;
-            let between = (b.position - a.position) + b.rotation * ball_b.center - arm;
-            let reach = ball_a.radius + ball_b.radius;
-            let touches = between.norm_squared() < reach * reach;
-            touching[count] = Touching { bodies: link.bodies(), spring: link.spring };
-            let place = Place { arm, between, radius: ball_a.radius, other: ball_b.radius };
-            blocks[count / LANES].put(count % LANES, &place);
-            link.spring = (LANES + count) as u32 * u32::from(touches);
-            count += usize::from(touches);
-        }
-        batch.take(count);
-        std::mem::swap(&mut self.links.springs, &mut self.former);
-    }
-
     /// The next places from `first` to `end` of two bodies, and these.
     #[inline(always)]
     pub(super) fn meeting(&self, first: usize, end: usize) -> Option<(Range<usize>, (u32, u32))> {
@@ -203,12 +273,10 @@ impl LinkDesk {
     pub(super) fn former(&self, places: Range<usize>) -> impl Iterator<Item = Spring> {
         self.touching[places].iter().map(|touching| spring(&self.former, touching.spring))
     }
+}
 
-    /// Takes the new springs of all contacts.
-    #[inline(always)]
-    pub(super) fn keep(&mut self, springs: impl Iterator<Item = Springs>) {
-        self.links.springs.clear();
-        self.links.springs.push(Springs::AT_REST);
-        self.links.springs.extend(springs);
-    }
+/// The spring at a place.
+#[inline(always)]
+fn spring(springs: &[Springs], at: u32) -> Spring {
+    springs[at as usize / LANES].get(at as usize % LANES)
 }

@@ -18,6 +18,7 @@ mod lease;
 mod links;
 mod pairs;
 mod side;
+mod sieve;
 mod surface;
 mod tasks;
 mod walls;

@@ -13,8 +13,9 @@ use super::body::{Ball, BodyConstants, Eight, Outline, ROUNDING};
 use super::extents::Extents;
 use super::law::Spring;
 use super::lease::Lease;
-use super::links::LinkDesk;
+use super::links::{Cursor, Link, Links};
 use super::side::Side;
+use super::sieve::Pose;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 use wide::f32x8;
@@ -46,6 +47,8 @@ pub(super) struct Setting<'a> {
     pub balls: &'a [Ball],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
+    /// None where all bodies are single spheres: they do not turn, and all links may touch.
+    pub poses: Option<&'a [Pose]>,
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
     /// Sum of the normal dashpots on each body in the last step, N s/m.
@@ -94,6 +97,7 @@ pub(super) struct Scratch {
     near: Candidates,
     /// A new list.
     spheres: Vec<(u16, u16)>,
+    links: Vec<Link>,
     pub places: Vec<(Place, Spring)>,
     /// Facets near a body.
     pub facets: Vec<u32>,
@@ -123,7 +127,7 @@ impl Pair {
         &mut self,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
-        links: &mut LinkDesk,
+        (links, cursor): (&mut Links, &mut Cursor),
     ) -> bool {
         let (key, list) = (self.key(), &mut *self.list);
         let (a, b) = (self.a as usize, self.b as usize);
@@ -135,7 +139,7 @@ impl Pair {
         if anew {
             let skin = skin(setting, ma, mb, &list.listed);
             list.list([oa, ob], at, skin, scratch);
-            links.replace(key, (oa.first, ob.first), &scratch.spheres);
+            links.replace(cursor, key, [oa, ob], &scratch.spheres, &mut scratch.links);
             left = list.listed.allowance;
         }
         self.mark = setting.odometers[a] + setting.odometers[b] + left;

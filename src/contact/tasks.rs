@@ -6,7 +6,7 @@ use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
 use super::groups::Group;
 use super::law::PairLaw;
-use super::links::LinkDesk;
+use super::links::{Cursor, LinkDesk};
 use super::pairs::{Pair, Scratch, Setting};
 use super::side::Side;
 use super::walls::{Boundary, WallList, WallWatch};
@@ -18,7 +18,7 @@ use std::cell::RefCell;
 pub(super) struct Desk {
     scratch: Scratch,
     batch: Batch,
-    links: LinkDesk,
+    touching: LinkDesk,
 }
 
 thread_local! {
@@ -60,26 +60,25 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { setting, .. } = self;
-        let Desk { scratch, batch, links } = self.desk;
-        let Group { pairs, links: kept, findings } = self.group;
+        let Desk { scratch, batch, touching } = self.desk;
+        let Group { pairs, links, findings } = self.group;
         findings.clear();
-        std::mem::swap(&mut links.links, kept);
         let mut alert = std::mem::take(&mut scratch.alert);
         let count = find(&mut alert, pairs, setting.odometers);
+        let mut cursor = Cursor::default();
         for &k in &alert[..count] {
-            let anew = pairs[k as usize].renew(setting, scratch, links);
+            let anew = pairs[k as usize].renew(setting, scratch, (links, &mut cursor));
             findings.rebuilt += u32::from(anew);
         }
         scratch.alert = alert;
-        links.replaced();
-        links.touch(setting, batch);
+        links.touch(touching, setting, batch);
         let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
         let mut first = 0;
-        while let Some((places, (a, b))) = links.meeting(first, batch.len()) {
+        while let Some((places, (a, b))) = touching.meeting(first, batch.len()) {
             first = places.end;
             let sides = (&setting.side(a as usize), &setting.side(b as usize));
             let law = setting.law_of(a as usize, b as usize);
-            let springs = links.former(places.clone());
+            let springs = touching.former(places.clone());
             batch.meet((a, b), 0, (places, springs), law, sides, setting.dt);
         }
         batch.work_out(self.laws, &rule, |a, b| (setting.side(a as usize), setting.side(b as usize)));
@@ -91,7 +90,6 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
             findings.presses.extend(batch.presses(self.laws, setting.dt));
         }
         batch.clear();
-        std::mem::swap(&mut links.links, kept);
     }
 }
 
