@@ -29,7 +29,7 @@ pub(super) struct Outline {
     pub bounding_radius: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
     pub reach: f64,
-    /// The spheres once more.
+    /// The spheres once more, for sieves.
     pub grains: Vec<Grains>,
     /// The spheres once more. Places left over hold a sphere of radius −∞.
     pub eights: Vec<Eight>,

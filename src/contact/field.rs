@@ -77,8 +77,8 @@ pub struct ContactField {
     /// The spheres of all outlines.
     balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
-    /// Of the bodies in this step, if not all are single spheres.
-    poses: Vec<Pose>,
+    /// Of the bodies in this step; none where all shapes are single spheres.
+    poses: Option<Vec<Pose>>,
     /// Sum of the normal dashpots on each body in the last step, N s/m.
     dampings: Vec<f64>,
     pub(super) laws: Vec<PairLaw>,
@@ -115,6 +115,7 @@ impl ContactField {
             outline
         });
         let outlines: Vec<_> = outlines.collect();
+        let single = balls.iter().all(|ball| ball.center == Vector3::zeros());
         let n = scene.materials.len();
         let laws = (0..n * n).map(|k| {
             let (a, b) = (k / n, k % n);
@@ -124,7 +125,7 @@ impl ContactField {
             outlines,
             balls,
             bodies: Vec::new(),
-            poses: Vec::new(),
+            poses: (!single).then(Vec::new),
             dampings: Vec::new(),
             laws: laws.collect(),
             materials: n,
@@ -205,17 +206,16 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
-        let single = self.balls.iter().all(|ball| ball.center == Vector3::zeros());
-        self.poses.clear();
-        if !single {
-            self.poses.extend(motions.iter().map(|motion| Pose::of(motion, self.grain)));
+        if let Some(poses) = &mut self.poses {
+            poses.clear();
+            poses.extend(motions.iter().map(|motion| Pose::of(motion, self.grain)));
         }
         let setting = Setting {
             outlines: &self.outlines,
             balls: &self.balls,
             bodies: &self.bodies,
             motions,
-            poses: (!single).then_some(&self.poses),
+            poses: self.poses.as_deref(),
             odometers,
             dampings: &self.dampings,
             materials: self.materials,

@@ -36,12 +36,11 @@ impl Grasp {
 /// A sphere of body a and one of body b.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
-    a: u32,
-    b: u32,
+    bodies: (u32, u32),
     /// Where the spheres stand in [`Setting::balls`].
     balls: (u32, u32),
-    /// The step in which it touched last, and where its spring stands in the springs of that step.
-    touched: (u32, u32),
+    /// The step in which it was measured last, and where its spring stood then: at [`AT_REST`] if it did not touch.
+    measured: (u32, u32),
 }
 
 /// A place in the sequences: links and sieves before it.
@@ -63,7 +62,7 @@ pub(super) struct Links {
     sieves: Vec<Sieve>,
     /// Eight at rest, then those of the links that touched in the last step, in their order.
     springs: Vec<Springs>,
-    /// The last step.
+    /// The number of the last step, which begins anew after 2³².
     step: u32,
 }
 
@@ -77,13 +76,13 @@ impl Links {
     /// Links that touched in the last step, sorted, of pairs whose lists are all to be made anew.
     pub(super) fn of(touching: &[Grasp]) -> Self {
         let mut links = Self::default();
-        for (k, Grasp { bodies: (a, b), balls, spring }) in touching.iter().enumerate() {
+        for (k, Grasp { bodies, balls, spring }) in touching.iter().enumerate() {
             if k % LANES == 0 {
                 links.springs.push(Springs::AT_REST);
             }
             links.springs[1 + k / LANES].set(k % LANES, spring);
-            let touched = (links.step, (LANES + k) as u32);
-            links.all.push(Link { a: *a, b: *b, balls: *balls, touched });
+            let measured = (links.step, (LANES + k) as u32);
+            links.all.push(Link { bodies: *bodies, balls: *balls, measured });
         }
         for same in touching.chunk_by(|x, y| x.bodies == y.bodies) {
             links.sieves.extend(same.chunks(LANES).map(|same| Sieve::closed(same[0].bodies, same.len())));
@@ -93,10 +92,9 @@ impl Links {
 
     /// Those that touched in the last step, in order.
     pub(super) fn touching(&self) -> impl Iterator<Item = Grasp> {
-        let touching = self.all.iter().filter(|link| link.touched.0 == self.step);
-        touching.map(|link| {
-            let Link { a, b, balls, touched } = *link;
-            Grasp { bodies: (a, b), balls, spring: spring(&self.springs, touched.1) }
+        self.all.iter().filter_map(|&Link { bodies, balls, measured: (step, at) }| {
+            let touches = step == self.step && at != AT_REST;
+            touches.then(|| Grasp { bodies, balls, spring: spring(&self.springs, at) })
         })
     }
 
@@ -132,7 +130,7 @@ impl Links {
         spheres: &[(u16, u16)],
         next: &mut Vec<Link>,
     ) {
-        let ((a, b), first) = (bodies, outlines.map(|outline| outline.first));
+        let first = outlines.map(|outline| outline.first);
         let (places, sieves) = self.places_of(bodies, at);
         let mut known = self.all[places.clone()].iter().peekable();
         next.clear();
@@ -140,7 +138,7 @@ impl Links {
             let balls = (first[0] + u32::from(i), first[1] + u32::from(j));
             while known.next_if(|link| link.balls < balls).is_some() {}
             let known = known.next_if(|link| link.balls == balls);
-            Link { a, b, balls, touched: known.map_or((0, AT_REST), |link| link.touched) }
+            Link { bodies, balls, measured: known.map_or((0, AT_REST), |link| link.measured) }
         }));
         let sieve = |spheres: &[(u16, u16)]| Sieve::of(bodies, outlines, spheres);
         *at = Cursor {
@@ -193,7 +191,7 @@ impl Links {
         let (mut count, mut law) = (0_usize, None);
         for &near in &near[..found] {
             let link = &mut links[near as usize];
-            let (a, b) = (link.a as usize, link.b as usize);
+            let (a, b) = (link.bodies.0 as usize, link.bodies.1 as usize);
             if mixed {
                 let own = setting.law_of(a, b);
                 if law.replace(own) != Some(own) {
@@ -212,11 +210,11 @@ impl Links {
             }
             let reach = ball_a.radius + ball_b.radius;
             let touches = between.norm_squared() < reach * reach;
-            let spring = if link.touched.0 == before { link.touched.1 } else { AT_REST };
-            touching[count] = Touching { bodies: (link.a, link.b), spring };
+            let spring = if link.measured.0 == before { link.measured.1 } else { AT_REST };
+            touching[count] = Touching { bodies: link.bodies, spring };
             let place = Place { arm, between, radius: ball_a.radius, other: ball_b.radius };
             blocks[count / LANES].put(count % LANES, &place);
-            link.touched = (if touches { self.step } else { 0 }, (LANES + count) as u32);
+            link.measured = (self.step, (LANES + count) as u32 * u32::from(touches));
             count += usize::from(touches);
         }
         batch.take(count);

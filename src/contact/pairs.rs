@@ -95,7 +95,7 @@ pub(super) struct Scratch {
     extents: [Extents; 2],
     foremost: Vec<u16>,
     near: Candidates,
-    /// A new list.
+    /// A new list, and its links.
     spheres: Vec<(u16, u16)>,
     links: Vec<Link>,
     pub places: Vec<(Place, Spring)>,

@@ -159,15 +159,15 @@ mod tests {
             let outlines = [0, 1].map(|k| Outline::new(&clumps[k], 0, grain));
             let pairs: Vec<_> = (0..8).map(|i| (i, random.random_range(0..8))).collect();
             let sieve = Sieve::of((0, 1), [&outlines[0], &outlines[1]], &pairs);
-            let mut motion = |spread: f64| Motion {
-                position: Vector3::from_fn(|_, _| random.random_range(-spread..spread)),
+            let position = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
+            let mut motion = || Motion {
+                position,
                 rotation: UnitQuaternion::new(Vector3::from_fn(|_, _| random.random_range(-3.0..3.0)))
                     .to_rotation_matrix()
                     .into_inner(),
                 ..Motion::at_rest()
             };
-            let (a, mut b) = (motion(1.0), motion(1.0));
-            b.position = a.position;
+            let (a, mut b) = (motion(), motion());
             let between = |b: &Motion, (i, j): (u16, u16)| {
                 let (i, j) = (&outlines[0].balls[usize::from(i)], &outlines[1].balls[usize::from(j)]);
                 let between = b.position + b.rotation * j.center - a.position - a.rotation * i.center;
