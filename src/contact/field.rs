@@ -253,7 +253,7 @@ impl ContactField {
         rayon::join(
             || {
                 let NearChanges { parted, met } = search();
-                groups::change(groups, &parted, &met);
+                groups::change(groups, &parted, &met, |body| setting.outline(body as usize));
                 groups.par_iter_mut().for_each(pairs);
             },
             || wall_lists.zip(&mut self.found_at_walls).for_each(walls),

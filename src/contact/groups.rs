@@ -1,6 +1,7 @@
 //! Near pairs in groups: what one task works on lies together, and a search changes few of them.
 
-use super::links::Links;
+use super::body::Outline;
+use super::links::{Cursor, Links};
 use super::pairs::Pair;
 use super::tasks::Findings;
 
@@ -11,7 +12,7 @@ const BODIES: u32 = 16;
 /// The pairs (a, b) of some bodies a.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Group {
-    /// In order.
+    /// In order; those of two single spheres are left out.
     pub pairs: Vec<Pair>,
     /// Spheres of the pairs that may touch, in order.
     pub links: Links,
@@ -23,8 +24,14 @@ fn group(a: u32) -> usize {
     (a / BODIES) as usize
 }
 
-/// Takes the pairs `parted` from the groups, and adds those that `met`.
-pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32, u32)]) {
+/// Takes the pairs `parted` from the groups, and adds those that `met`; bodies have an `outline`. Two single spheres need no
+/// list: their one link is there as long as they are near each other.
+pub(super) fn change<'a>(
+    groups: &mut Vec<Group>,
+    parted: &[(u32, u32)],
+    met: &[(u32, u32)],
+    outline: impl Fn(u32) -> &'a Outline,
+) {
     if let Some(last) = met.iter().map(|(a, _)| group(*a)).max() {
         groups.resize(groups.len().max(last + 1), Group::default());
     }
@@ -38,10 +45,15 @@ pub(super) fn change(groups: &mut Vec<Group>, parted: &[(u32, u32)], met: &[(u32
             }
         }
     }
+    let mut links = Vec::new();
     for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {
         let group = &mut groups[group(met[0].0)];
+        let mut cursor = Cursor::default();
         for key in met {
-            if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
+            let outlines = [outline(key.0), outline(key.1)];
+            if outlines.iter().all(|outline| outline.balls.len() == 1) {
+                group.links.replace(&mut cursor, *key, outlines, &[(0, 0)], &mut links);
+            } else if let Err(at) = group.pairs.binary_search_by_key(key, Pair::key) {
                 group.pairs.insert(at, Pair::new(*key));
             }
         }

@@ -61,7 +61,7 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    fn outline(&self, body: usize) -> &Outline {
+    pub(super) fn outline(&self, body: usize) -> &Outline {
         &self.outlines[self.bodies[body].shape]
     }
 
