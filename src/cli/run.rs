@@ -153,9 +153,11 @@ impl Session {
         }
         let step = simulation.time_step();
         let overlap = simulation.deepest_overlap();
+        let stiff = simulation.stiff_share();
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
+        self.record.guards.too_stiff_percent = 100.0 * stiff;
         self.record.guards.energy = simulation.energy().as_ref().map(audit);
-        self.record.warnings = guards::warnings(simulation.scene().contact.mode, step, overlap)
+        self.record.warnings = guards::warnings(simulation.scene().contact.mode, step, overlap, stiff)
             .iter()
             .map(ToString::to_string)
             .collect();

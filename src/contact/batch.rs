@@ -7,6 +7,7 @@
 //! A contact has one common point for both bodies, so that angular momentum is conserved to round-off.
 
 use super::block::{Block, EMPTY, LANES, Springs, get, set};
+use super::body::Load;
 use super::energy::Press;
 use super::law::{Dashpots, PairLaw, Spring};
 use super::side::{CROWD, DAMPED, Side, frequency};
@@ -37,8 +38,7 @@ pub(super) struct Exchange {
     pub contacts: u32,
     /// Largest overlap over the smaller sphere's radius, dimensionless.
     pub deepest: f64,
-    /// Sum of the normal dashpots before the bodies' other contacts weaken them, N s/m.
-    pub damping: f64,
+    pub load: Load,
     /// Force on b; a feels the opposite, N.
     pub force: Vector3<f64>,
     /// Torque on a about its centre of mass, N m.
@@ -188,8 +188,8 @@ impl Batch {
 
     /// What was worked out between two bodies.
     #[inline(always)]
-    pub(super) fn exchange(&self, meeting: &Meeting) -> Exchange {
-        meeting.exchange(&self.blocks)
+    pub(super) fn exchange(&self, meeting: &Meeting, laws: &[PairLaw]) -> Exchange {
+        meeting.exchange(&self.blocks, laws)
     }
 
     /// The springs between two bodies, and the list they belong to.
@@ -246,22 +246,24 @@ impl Meeting {
     }
 
     #[inline(always)]
-    fn exchange(&self, blocks: &[Block]) -> Exchange {
+    fn exchange(&self, blocks: &[Block], laws: &[PairLaw]) -> Exchange {
         let (mut force, mut torque) = (Vector3::zeros(), Vector3::zeros());
-        let (mut deepest, mut damping) = (0.0_f64, 0.0);
+        let (mut deepest, mut damping, mut contact_radii) = (0.0_f64, 0.0, 0.0);
         for (at, k) in self.lanes() {
             let block = &blocks[at];
             force += get(&block.force, k);
             torque += get(&block.torque, k);
             deepest = deepest.max(block.depth[k]);
             damping += block.dashpot[0][k];
+            contact_radii += block.contact_radius[k];
         }
+        let stiffness = laws[blocks[self.first / LANES].law].normal_stiffness(contact_radii);
         Exchange {
             a: self.a,
             b: self.b,
             contacts: self.count as u32,
             deepest,
-            damping,
+            load: Load { damping, stiffness },
             force,
             torque_a: -torque,
             torque_b: torque - self.offset.cross(&force),

@@ -3,6 +3,7 @@
 use super::sieve::Grains;
 use crate::shapes::Clump;
 use nalgebra::Vector3;
+use std::ops::AddAssign;
 
 /// One sphere of a body, body axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,4 +92,20 @@ pub(super) struct BodyConstants {
     pub inverse_inertia: Vector3<f64>,
     /// 1/m + R²/I with the bounding radius R and the smallest moment I, 1/kg.
     pub softness: f64,
+}
+
+/// What contacts sum up to.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Load {
+    /// Normal dashpots before the bodies' other contacts weaken them, N s/m.
+    pub damping: f64,
+    /// Normal stiffnesses, N/m.
+    pub stiffness: f64,
+}
+
+impl AddAssign for Load {
+    fn add_assign(&mut self, other: Self) {
+        self.damping += other.damping;
+        self.stiffness += other.stiffness;
+    }
 }

@@ -1,6 +1,6 @@
 //! All contacts of a run.
 
-use super::body::{Ball, BodyConstants, Outline};
+use super::body::{Ball, BodyConstants, Load, Outline};
 use super::groups::{self, Group};
 use super::law::PairLaw;
 use super::links::Grasp;
@@ -18,6 +18,8 @@ use rayon::prelude::*;
 /// The common skin of lists, as a share of the largest bounding radius. Small skins are used up quickly and lists are
 /// rebuilt often; large ones hold many pairs that do not touch.
 const SKIN: f64 = 0.02;
+/// Square of the angle, rad², by which an oscillation may go on in a step of velocity Verlet.
+const STABLE: f64 = 4.0;
 /// Bodies whose walls one task takes: a fixed number, so that results do not depend on the number of threads.
 const CHUNK: usize = 128;
 
@@ -68,6 +70,8 @@ pub struct Tally {
     pub deepest: f64,
     /// Lists built anew.
     pub rebuilt: u32,
+    /// Bodies held stiffer than the step bears, whose forces were lowered.
+    pub stiff: u32,
 }
 
 /// Every body, surface, list and spring.
@@ -79,8 +83,8 @@ pub struct ContactField {
     bodies: Vec<BodyConstants>,
     /// Of the bodies in this step; none where all shapes are single spheres.
     poses: Option<Vec<Pose>>,
-    /// Sum of the normal dashpots on each body in the last step, N s/m.
-    dampings: Vec<f64>,
+    /// Of each body in the last step.
+    loads: Vec<Load>,
     pub(super) laws: Vec<PairLaw>,
     materials: usize,
     /// Whether bodies are of several materials.
@@ -126,7 +130,7 @@ impl ContactField {
             balls,
             bodies: Vec::new(),
             poses: (!single).then(Vec::new),
-            dampings: Vec::new(),
+            loads: Vec::new(),
             laws: laws.collect(),
             materials: n,
             mixed: false,
@@ -149,7 +153,7 @@ impl ContactField {
         let inverse_inertia = inertia.map(|i| 1.0 / i);
         let inverse_mass = 1.0 / mass;
         let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
-        self.dampings.push(0.0);
+        self.loads.push(Load::default());
         self.mixed |= self.bodies.first().is_some_and(|first| first.material != material);
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
         let surfaces = self.boundaries.len() as u32;
@@ -165,7 +169,7 @@ impl ContactField {
             numbers[*old as usize] = number as u32;
         }
         reorder(&mut self.bodies, order);
-        reorder(&mut self.dampings, order);
+        reorder(&mut self.loads, order);
         groups::renumber(&mut self.groups, &numbers);
         self.wall_watches.iter_mut().for_each(|watch| watch.body = numbers[watch.body as usize]);
         let mut walls: Vec<_> = self.wall_watches.drain(..).zip(self.walls.drain(..)).collect();
@@ -217,7 +221,7 @@ impl ContactField {
             motions,
             poses: self.poses.as_deref(),
             odometers,
-            dampings: &self.dampings,
+            loads: &self.loads,
             materials: self.materials,
             mixed: self.mixed,
             skin: self.skin,
@@ -258,14 +262,16 @@ impl ContactField {
             },
             || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
         );
-        self.gather(wrenches)
+        let mut tally = self.gather(wrenches);
+        tally.stiff = self.ease(wrenches, dt);
+        tally
     }
 
     /// Sums over what touches in the order of the lists: the same bits for any number of threads.
     fn gather(&mut self, wrenches: &mut [Wrench]) -> Tally {
         let mut tally = Tally::default();
-        let dampings = &mut self.dampings;
-        dampings.fill(0.0);
+        let loads = &mut self.loads;
+        loads.fill(Load::default());
         for torque in &mut self.surface_torques {
             *torque = Vector3::zeros();
         }
@@ -273,7 +279,7 @@ impl ContactField {
             let body = &mut wrenches[exchange.a as usize];
             body.force -= exchange.force;
             body.torque += exchange.torque_a;
-            dampings[exchange.a as usize] += exchange.damping;
+            loads[exchange.a as usize] += exchange.load;
             self.surface_torques[exchange.b as usize] += exchange.torque_b;
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
@@ -287,13 +293,33 @@ impl ContactField {
                 let b = &mut wrenches[exchange.b as usize];
                 b.force += exchange.force;
                 b.torque += exchange.torque_b;
-                dampings[exchange.a as usize] += exchange.damping;
-                dampings[exchange.b as usize] += exchange.damping;
+                loads[exchange.a as usize] += exchange.load;
+                loads[exchange.b as usize] += exchange.load;
                 tally.sphere_contacts += exchange.contacts;
                 tally.deepest = tally.deepest.max(exchange.deepest);
             }
         }
         tally
+    }
+
+    /// Lowers all forces on bodies that are held stiffer than the step of `dt` s bears, and returns how many they are.
+    ///
+    /// Derived here: velocity Verlet is stable while λ dt² < [`STABLE`] for all squares λ of angular frequencies. A body whose
+    /// partners hold still has none above K = Σ k (1/m + R²/I) over its contacts, whose tangential springs are no stiffer than
+    /// the normal ones. One with K dt² above that answers all forces, weight included, as if its mass and moments were larger
+    /// by as much. What balances still does; momentum is not conserved, as its partners feel the whole forces. No step fine
+    /// enough knows of it.
+    fn ease(&self, wrenches: &mut [Wrench], dt: f64) -> u32 {
+        let mut stiff = 0;
+        for ((wrench, load), body) in wrenches.iter_mut().zip(&self.loads).zip(&self.bodies) {
+            let excess = load.stiffness * body.softness * (dt * dt) / STABLE;
+            if excess > 1.0 {
+                wrench.force /= excess;
+                wrench.torque /= excess;
+                stiff += 1;
+            }
+        }
+        stiff
     }
 
     /// The deepest contact of the last step: its body, and the other body or the surface.

@@ -9,7 +9,7 @@
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.
 
 use super::batch::Place;
-use super::body::{Ball, BodyConstants, Eight, Outline, ROUNDING};
+use super::body::{Ball, BodyConstants, Eight, Load, Outline, ROUNDING};
 use super::extents::Extents;
 use super::law::Spring;
 use super::lease::Lease;
@@ -51,8 +51,8 @@ pub(super) struct Setting<'a> {
     pub poses: Option<&'a [Pose]>,
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
-    /// Sum of the normal dashpots on each body in the last step, N s/m.
-    pub dampings: &'a [f64],
+    /// Of each body in the last step.
+    pub loads: &'a [Load],
     pub materials: usize,
     /// Whether bodies are of several materials.
     pub mixed: bool,
@@ -84,7 +84,7 @@ impl Setting<'_> {
             inverse_mass: constants.inverse_mass,
             inverse_inertia: constants.inverse_inertia,
             softness: constants.softness,
-            drag: self.dampings[body] * constants.softness,
+            drag: self.loads[body].damping * constants.softness,
         }
     }
 }

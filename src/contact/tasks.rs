@@ -83,7 +83,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
         }
         batch.work_out(self.laws, &rule, |a, b| (setting.side(a as usize), setting.side(b as usize)));
         for meeting in batch.meetings() {
-            findings.touching.push(batch.exchange(meeting));
+            findings.touching.push(batch.exchange(meeting, self.laws));
         }
         links.keep(batch.springs());
         if self.keep_contacts {
@@ -141,7 +141,7 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
         }
         batch.work_out(self.laws, &rule, sides);
         for meeting in batch.meetings() {
-            findings.touching.push(batch.exchange(meeting));
+            findings.touching.push(batch.exchange(meeting, self.laws));
             let (list, springs) = batch.springs_of(meeting);
             lists[list].keep(springs);
         }

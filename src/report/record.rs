@@ -114,6 +114,9 @@ pub struct SprayAim {
 pub struct Guards {
     /// Largest overlap of the run over the smaller sphere's radius, %.
     pub largest_overlap_percent: f64,
+    /// Share of bodies and steps in which a body was held stiffer than the step bears, so that its forces were lowered, %.
+    #[serde(default)]
+    pub too_stiff_percent: f64,
     /// Where energy is and where it went over the coated time, if the scene asks for the audit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyAudit>,

@@ -64,6 +64,11 @@ impl Simulation {
         self.deepest
     }
 
+    /// Share of bodies and steps so far in which a body was held stiffer than the step bears and its forces were lowered.
+    pub fn stiff_share(&self) -> f64 {
+        self.stiff as f64 / (self.step * self.bodies.len() as u64).max(1) as f64
+    }
+
     /// Where the run time went.
     pub fn stopwatch(&self) -> &Stopwatch {
         &self.stopwatch

@@ -58,6 +58,8 @@ pub struct Simulation {
     pub(super) torque_sum: f64,
     pub(super) torque_steps: u64,
     pub(super) deepest: f64,
+    /// Bodies that were stiffer than the step bears, summed over all steps.
+    pub(super) stiff: u64,
     pub(super) audit: Option<EnergyAudit>,
     pub(super) tally: Tally,
     /// Time, s, and bodies of the last frame that passed all guards.
@@ -109,6 +111,7 @@ impl Simulation {
             torque_sum: 0.0,
             torque_steps: 0,
             deepest: 0.0,
+            stiff: 0,
             tally: Tally::default(),
             audit: None,
             good: (0.0, Vec::new()),
@@ -305,6 +308,7 @@ impl Simulation {
         }
         self.torque_steps += 1;
         self.deepest = self.deepest.max(self.tally.deepest);
+        self.stiff += u64::from(self.tally.stiff);
     }
 
     /// Advances by one frame interval.
