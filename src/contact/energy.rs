@@ -72,7 +72,7 @@ impl ContactField {
             law: &self.laws[press.law],
         };
         let touching = |group: &'a Group| group.links.touching().zip(&group.findings.presses);
-        let pairs = self.groups.iter().flat_map(touching).map(move |(grasp, press)| {
+        let pairs = self.groups.all.iter().flat_map(touching).map(move |(grasp, press)| {
             let (a, b) = grasp.bodies;
             state(press, a, Partner::Body(b as usize), self.spheres(&grasp))
         });

@@ -1,7 +1,7 @@
 //! All contacts of a run.
 
 use super::body::{Ball, BodyConstants, Load, Outline};
-use super::groups::{self, Group};
+use super::groups::{Group, Groups};
 use super::law::PairLaw;
 use super::links::Grasp;
 use super::pairs::Setting;
@@ -96,7 +96,7 @@ pub struct ContactField {
     /// m.
     grain: f64,
     /// Of each task over pairs.
-    pub(super) groups: Vec<Group>,
+    pub(super) groups: Groups,
     boundaries: Vec<Boundary>,
     pub(super) wall_watches: Vec<WallWatch>,
     /// The lists of `wall_watches`, in the same order.
@@ -138,7 +138,7 @@ impl ContactField {
             keep_contacts: false,
             skin: SKIN * largest,
             grain,
-            groups: Vec::new(),
+            groups: Groups::default(),
             boundaries: Vec::new(),
             wall_watches: Vec::new(),
             walls: Vec::new(),
@@ -170,7 +170,7 @@ impl ContactField {
         }
         reorder(&mut self.bodies, order);
         reorder(&mut self.loads, order);
-        groups::renumber(&mut self.groups, &numbers);
+        self.groups.renumber(&numbers);
         self.wall_watches.iter_mut().for_each(|watch| watch.body = numbers[watch.body as usize]);
         let mut walls: Vec<_> = self.wall_watches.drain(..).zip(self.walls.drain(..)).collect();
         walls.sort_unstable_by_key(|(watch, _)| watch.key());
@@ -257,8 +257,8 @@ impl ContactField {
         rayon::join(
             || {
                 let NearChanges { parted, met } = search();
-                groups::change(groups, &parted, &met, |body| setting.outline(body as usize));
-                groups.par_iter_mut().for_each(pairs);
+                groups.change(&parted, &met, motions.len(), |body| setting.outline(body as usize));
+                groups.all.par_iter_mut().for_each(pairs);
             },
             || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
         );
@@ -284,7 +284,7 @@ impl ContactField {
             tally.wall_contacts += exchange.contacts;
             tally.deepest = tally.deepest.max(exchange.deepest);
         }
-        for Group { findings, .. } in &self.groups {
+        for Group { findings, .. } in &self.groups.all {
             tally.rebuilt += findings.rebuilt;
             for exchange in &findings.touching {
                 let a = &mut wrenches[exchange.a as usize];
@@ -324,7 +324,7 @@ impl ContactField {
 
     /// The deepest contact of the last step: its body, and the other body or the surface.
     pub fn deepest(&self) -> Option<(usize, Partner)> {
-        let pairs = self.groups.iter().flat_map(|group| &group.findings.touching);
+        let pairs = self.groups.all.iter().flat_map(|group| &group.findings.touching);
         let pairs = pairs.map(|e| (e.deepest, e.a, Partner::Body(e.b as usize)));
         let walls = self.found_at_walls.iter().flat_map(|found| &found.touching);
         let walls = walls.map(|e| (e.deepest, e.a, Partner::Surface(e.b as usize)));
@@ -345,7 +345,7 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let pairs = self.groups.iter().flat_map(|group| group.links.touching()).map(|grasp| {
+        let pairs = self.groups.all.iter().flat_map(|group| group.links.touching()).map(|grasp| {
             let (i, j) = self.spheres(&grasp);
             (grasp.bodies.0, grasp.bodies.1, i, j, grasp.spring.stretch)
         });
