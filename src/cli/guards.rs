@@ -63,7 +63,8 @@ pub(super) enum Warning {
     )]
     LargeOverlap(f64),
     #[error(
-        "in {:.1} % of all steps a body was stiffer than the step bears and gave way more slowly: lower time.step",
+        "in {:.1} % of all steps of all bodies a body was stiffer than the step bears and gave way more slowly: lower \
+         time.step",
         100.0 * .0
     )]
     OftenStiff(f64),

@@ -38,6 +38,7 @@ pub(super) struct Exchange {
     pub contacts: u32,
     /// Largest overlap over the smaller sphere's radius, dimensionless.
     pub deepest: f64,
+    /// Of its contacts.
     pub load: Load,
     /// Force on b; a feels the opposite, N.
     pub force: Vector3<f64>,

@@ -30,12 +30,21 @@ pub(super) struct Groups {
     pub all: Vec<Group>,
 }
 
-/// Bodies to each group of a bed of `count`.
-fn share(count: usize) -> u32 {
-    (count as u32).div_ceil(GROUPS).clamp(FEWEST, MOST)
-}
-
 impl Groups {
+    /// Makes groups for `count` bodies; those that there are stay.
+    fn cover(&mut self, count: usize) {
+        if self.all.is_empty() {
+            self.bodies = (count as u32).div_ceil(GROUPS).clamp(FEWEST, MOST);
+        }
+        self.all.resize(count.div_ceil(self.bodies as usize), Group::default());
+    }
+
+    /// Tells the group of a body.
+    fn group(&self) -> impl Fn(u32) -> usize + use<> {
+        let bodies = self.bodies;
+        move |body| (body / bodies) as usize
+    }
+
     /// Takes the pairs `parted` from the groups, and adds those that `met`; each of the `count` bodies has an `outline`. Two
     /// single spheres need no list: their one link is there as long as they are near each other.
     pub(super) fn change<'a>(
@@ -45,27 +54,18 @@ impl Groups {
         count: usize,
         outline: impl Fn(u32) -> &'a Outline,
     ) {
-        let Self { bodies, all } = self;
-        if all.is_empty() {
-            *bodies = share(count);
-        }
-        let group = |a: u32| (a / *bodies) as usize;
-        if let Some(last) = met.iter().map(|(a, _)| group(*a)).max() {
-            all.resize(all.len().max(last + 1), Group::default());
-        }
-        for parted in parted.chunk_by(|x, y| group(x.0) == group(y.0)) {
-            if let Some(group) = all.get_mut(group(parted[0].0)) {
-                for key in parted {
-                    if let Ok(at) = group.pairs.binary_search_by_key(key, Pair::key) {
-                        group.pairs.remove(at);
-                    }
-                    group.links.remove(*key);
-                }
+        self.cover(count);
+        let group = self.group();
+        for key in parted {
+            let group = &mut self.all[group(key.0)];
+            if let Ok(at) = group.pairs.binary_search_by_key(key, Pair::key) {
+                group.pairs.remove(at);
             }
+            group.links.remove(*key);
         }
         let mut links = Vec::new();
         for met in met.chunk_by(|x, y| group(x.0) == group(y.0)) {
-            let group = &mut all[group(met[0].0)];
+            let group = &mut self.all[group(met[0].0)];
             let mut cursor = Cursor::default();
             for key in met {
                 let outlines = [outline(key.0), outline(key.1)];
@@ -83,11 +83,11 @@ impl Groups {
         let touching = self.all.iter().flat_map(|group| group.links.touching());
         let mut touching: Vec<_> = touching.map(|grasp| grasp.renumbered(numbers)).collect();
         touching.sort_unstable_by_key(|grasp| (grasp.bodies, grasp.balls));
-        self.bodies = share(numbers.len());
-        self.all = vec![Group::default(); numbers.len().div_ceil(self.bodies as usize)];
-        let group = |(a, _): (u32, u32)| (a / self.bodies) as usize;
-        for touching in touching.chunk_by(|x, y| group(x.bodies) == group(y.bodies)) {
-            self.all[group(touching[0].bodies)].links = Links::of(touching);
+        self.all.clear();
+        self.cover(numbers.len());
+        let group = self.group();
+        for touching in touching.chunk_by(|x, y| group(x.bodies.0) == group(y.bodies.0)) {
+            self.all[group(touching[0].bodies.0)].links = Links::of(touching);
         }
     }
 }

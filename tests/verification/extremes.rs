@@ -133,7 +133,7 @@ fn a_forced_run_that_blows_up_stops_with_its_last_good_state() {
     assert_eq!(code, 1, "{message}");
     // Twice the Rayleigh time: it is over after two hundred of 7500 steps, for all that stiff bodies are slowed down.
     let step = message.split("in step ").nth(1).and_then(|rest| rest.split(',').next()?.parse::<u32>().ok());
-    assert!(message.contains("body ") && step.is_some_and(|step| step <= 400), "{message}");
+    assert!(message.contains("body ") && step.is_some_and(|step| step <= 200), "{message}");
     let record = std::fs::read_to_string(out.path().join("run/run.json")).expect("has a record");
     assert!(record.contains("\"failed\""));
     // The last good state can be run on from.
