@@ -194,7 +194,7 @@ fn check_says_what_is_on_and_what_is_left_out() {
         "batch               769 tablets \"round\" of 1300 mg, 50 spheres",
         "drum                250 mm across, 100 mm wide, 22.0 rpm, 4 baffles",
         "spray               76.2 x 38.1 mm, 512 x 256 pixels, square to the bed",
-        "steps per contact   15.",
+        "steps per contact   12.",
         "steps               at most",
         "run time            ",
         "Rayleigh fraction",

@@ -103,6 +103,35 @@ fn coats_a_few(name: &str) {
     coats(name, &["batches[0].mass=G(150)", &format!("shapes.{name}.spheres=12")]);
 }
 
+/// Beds of all tablets and spheres, at the step of the scene: sharp edges and flat faces hold only then what they bear.
+fn lasts(name: &str) {
+    let record = run(name, "0.5", &["spray=None", "time.settle=For(Ms(200))"]);
+    assert_eq!(record["status"], "done");
+    let guards = |key: &str| record["guards"][key].as_f64().expect("is watched");
+    assert!(
+        guards("largest_overlap_percent") < 65.0 && guards("too_stiff_percent") < 0.1,
+        "{}",
+        record["guards"]
+    );
+}
+
+#[test]
+fn beds_of_capsules_and_bullets_last() {
+    lasts("capsule");
+    lasts("bullet");
+}
+
+#[test]
+fn beds_of_half_moons_last() {
+    lasts("half_moon");
+}
+
+#[test]
+fn beds_of_shields_and_flat_tablets_last() {
+    lasts("shield");
+    lasts("flat");
+}
+
 #[test]
 fn capsules() {
     coats_a_few("capsule");

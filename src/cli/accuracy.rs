@@ -122,7 +122,7 @@ fn axes(scene: &Scene) -> Vec<Axis> {
         (format!("{count} spheres"), sets.collect())
     };
     let as_is = || ("as in the scene".to_owned(), Vec::new());
-    let steps = [10.0, 12.0, 15.0, 20.0, 25.0, 40.0, 100.0];
+    let steps = [8.0, 10.0, 12.0, 15.0, 20.0, 25.0, 40.0, 100.0];
     let mut axes = vec![
         Axis {
             name: "step",

@@ -9,8 +9,8 @@
 use super::block::{Block, EMPTY, LANES, Springs, get, set};
 use super::body::Load;
 use super::energy::Press;
-use super::law::{Dashpots, PairLaw, Spring};
-use super::side::{CROWD, DAMPED, Side, frequency};
+use super::law::{Dashpots, PairLaw, Spring, brevity};
+use super::side::{CROWD, DAMPED, Felt, Side, frequency};
 use crate::scene::DampingMass;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -230,9 +230,11 @@ impl Meeting {
             let felt = self.lanes().map(|(at, k)| blocks[at].felt(k, &self.offset));
             if let Some(omega) = frequency(felt, &sides, law) {
                 for (at, k) in self.lanes() {
-                    let Dashpots { normal, tangential } =
-                        law.dashpots_at(blocks[at].contact_radius[k], omega, rule.dt);
-                    (blocks[at].dashpot[0][k], blocks[at].dashpot[1][k]) = (normal, tangential);
+                    let Felt { speed, contact_radius, .. } = blocks[at].felt(k, &self.offset);
+                    let Dashpots { normal, tangential } = law.dashpots_at(contact_radius, omega, rule.dt);
+                    let brief = brevity(blocks[at].overlap[k], speed.abs() * rule.dt);
+                    blocks[at].dashpot[0][k] = normal * brief;
+                    blocks[at].dashpot[1][k] = tangential * brief;
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::batch::{Place, Rule};
 use super::energy::Press;
-use super::law::{Dashpots, PairLaw, Spring, Touch};
+use super::law::{Dashpots, PairLaw, Spring, Touch, brevity};
 use super::side::Felt;
 use crate::scene::TangentialLaw;
 use nalgebra::Vector3;
@@ -123,16 +123,17 @@ impl Block {
             let contact_radius = (overlap / (curvature + other_curvature)).sqrt();
             let arm = get(&self.arm, k) + normal * (self.radius[k] - rule.inside * overlap);
             let velocity = get(&self.drift, k) + get(&self.turn, k).cross(&arm);
+            let brief = brevity(overlap, velocity.dot(&normal).abs() * rule.dt);
             let Dashpots { normal: across, tangential: along } =
-                law.dashpots(contact_radius, self.mass[k]).delayed(rule.dt / self.mass[k]);
+                law.dashpots_in_steps(contact_radius, self.mass[k], rule.dt);
             set(&mut self.arm, k, &arm);
             set(&mut self.normal, k, &normal);
             set(&mut self.velocity, k, &velocity);
             self.overlap[k] = overlap;
             self.depth[k] = overlap * curvature.max(other_curvature);
             self.contact_radius[k] = contact_radius;
-            self.dashpot[0][k] = across;
-            self.dashpot[1][k] = along;
+            self.dashpot[0][k] = across * brief;
+            self.dashpot[1][k] = along * brief;
         }
     }
 

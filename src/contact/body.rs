@@ -2,7 +2,7 @@
 
 use super::sieve::Grains;
 use crate::shapes::Clump;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::ops::AddAssign;
 
 /// One sphere of a body, body axes.
@@ -68,6 +68,21 @@ impl Outline {
         [x[k], y[k], z[k], radius[k]]
     }
 
+    /// Bound of how much more a body answers a force at any place of its surface than one through its centre of mass, with its
+    /// principal moments over mass, m²: dimensionless.
+    ///
+    /// At r from the centre of mass that is the largest eigenvalue of 1 + [r]× I⁻¹ [r]×ᵀ, or 1 + ‖I^-½ [r]×‖². With r = c + ρ n on a sphere
+    /// ‖I^-½ [r]×‖ ≤ ‖I^-½ [c]×‖ + ρ/√I, I the smallest moment.
+    pub(super) fn softness(&self, inertia: &Vector3<f64>) -> f64 {
+        let easiest = 1.0 / inertia.min().sqrt();
+        let turned = self.balls.iter().map(|ball| {
+            let turn = Matrix3::from_diagonal(&inertia.map(|i| 1.0 / i.sqrt())) * ball.center.cross_matrix();
+            (turn * turn.transpose()).symmetric_eigenvalues().max().sqrt() + ball.radius * easiest
+        });
+        let nearest = self.bounding_radius * easiest;
+        1.0 + turned.fold(0.0, f64::max).min(nearest).powi(2)
+    }
+
     /// Middle of some of the spheres, m.
     #[inline(always)]
     pub(super) fn middle(&self, spheres: &[u16]) -> Vector3<f32> {
@@ -90,7 +105,7 @@ pub(super) struct BodyConstants {
     pub inverse_mass: f64,
     /// Inverse principal moments, 1/(kg m²).
     pub inverse_inertia: Vector3<f64>,
-    /// 1/m + R²/I with the bounding radius R and the smallest moment I, 1/kg.
+    /// Bound of its response to a force at any place of its surface: see [`Outline::softness`], 1/kg.
     pub softness: f64,
 }
 

@@ -78,6 +78,8 @@ pub struct Tally {
 #[derive(Clone)]
 pub struct ContactField {
     outlines: Vec<Outline>,
+    /// Of each outline: see [`Outline::softness`].
+    softness: Vec<f64>,
     /// The spheres of all outlines.
     balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
@@ -119,6 +121,7 @@ impl ContactField {
             outline
         });
         let outlines: Vec<_> = outlines.collect();
+        let softness = outlines.iter().zip(shapes).map(|(o, shape)| o.softness(&shape.inertia_per_mass));
         let single = balls.iter().all(|ball| ball.center == Vector3::zeros());
         let n = scene.materials.len();
         let laws = (0..n * n).map(|k| {
@@ -126,6 +129,7 @@ impl ContactField {
             PairLaw::new(&scene.materials[a], &scene.materials[b], scene.pairs.get(a, b), scene.contact)
         });
         Self {
+            softness: softness.collect(),
             outlines,
             balls,
             bodies: Vec::new(),
@@ -152,7 +156,7 @@ impl ContactField {
         let body = self.bodies.len() as u32;
         let inverse_inertia = inertia.map(|i| 1.0 / i);
         let inverse_mass = 1.0 / mass;
-        let softness = inverse_mass + self.outlines[shape].bounding_radius.powi(2) * inverse_inertia.max();
+        let softness = inverse_mass * self.softness[shape];
         self.loads.push(Load::default());
         self.mixed |= self.bodies.first().is_some_and(|first| first.material != material);
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });
@@ -210,16 +214,11 @@ impl ContactField {
         for (boundary, motion) in self.boundaries.iter_mut().zip(surfaces) {
             boundary.motion = *motion;
         }
-        if let Some(poses) = &mut self.poses {
-            poses.clear();
-            poses.extend(motions.iter().map(|motion| Pose::of(motion, self.grain)));
-        }
         let setting = Setting {
             outlines: &self.outlines,
             balls: &self.balls,
             bodies: &self.bodies,
             motions,
-            poses: self.poses.as_deref(),
             odometers,
             loads: &self.loads,
             materials: self.materials,
@@ -229,12 +228,6 @@ impl ContactField {
         };
         let (laws, boundaries, damping) = (&self.laws, &self.boundaries, self.damping);
         let (setting, keep_contacts) = (&setting, self.keep_contacts);
-        let pairs = |group| {
-            DESK.with_borrow_mut(|desk| {
-                let task = PairTask { group, desk, setting, laws, damping, keep_contacts };
-                pulp::Arch::new().dispatch(task);
-            });
-        };
         let walls = |((watches, lists), findings)| {
             DESK.with_borrow_mut(|desk| {
                 let task = WallTask {
@@ -253,12 +246,22 @@ impl ContactField {
         };
         self.found_at_walls.resize_with(self.walls.len().div_ceil(CHUNK), Findings::default);
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
-        let groups = &mut self.groups;
+        let (groups, poses, grain) = (&mut self.groups, &mut self.poses, self.grain);
         rayon::join(
             || {
                 let NearChanges { parted, met } = search();
                 groups.change(&parted, &met, motions.len(), |body| setting.outline(body as usize));
-                groups.all.par_iter_mut().for_each(pairs);
+                if let Some(poses) = poses {
+                    poses.clear();
+                    poses.extend(motions.iter().map(|motion| Pose::of(motion, grain)));
+                }
+                let poses = poses.as_deref();
+                groups.all.par_iter_mut().for_each(|group| {
+                    DESK.with_borrow_mut(|desk| {
+                        let task = PairTask { group, desk, setting, poses, laws, damping, keep_contacts };
+                        pulp::Arch::new().dispatch(task);
+                    });
+                });
             },
             || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
         );
@@ -305,7 +308,7 @@ impl ContactField {
     /// Lowers all forces on bodies that are held stiffer than the step of `dt` s bears, and returns how many they are.
     ///
     /// Derived here: velocity Verlet is stable while λ dt² < [`STABLE`] for all squares λ of angular frequencies. A body whose
-    /// partners hold still has none above K = Σ k (1/m + R²/I) over its contacts, whose tangential springs are no stiffer than
+    /// partners hold still has none above K = s Σ k over its contacts, s its softness, whose tangential springs are no stiffer than
     /// the normal ones. One with K dt² above that answers all forces, weight included, as if its mass and moments were larger
     /// by as much. What balances still does; momentum is not conserved, as its partners feel the whole forces. No step fine
     /// enough knows of it.

@@ -131,15 +131,28 @@ impl PairLaw {
         Dashpots { normal: root * self.dashpots.normal, tangential: root * self.dashpots.tangential }
     }
 
+    /// The dashpots that do in steps of `dt` s, on the mean velocity of the step before, what [`PairLaw::dashpots`] do at all
+    /// instants.
+    #[inline(always)]
+    pub(super) fn dashpots_in_steps(&self, contact_radius: f64, mass: f64, dt: f64) -> Dashpots {
+        let Dashpots { normal, tangential } = self.dashpots(contact_radius, mass);
+        let (step, by_mass) = (dt * dt / mass, dt / mass);
+        Dashpots {
+            normal: normal * stepped(normal * by_mass, self.normal_stiffness(contact_radius) * step),
+            tangential: tangential
+                * stepped(RIM * tangential * by_mass, RIM * self.tangential_stiffness(contact_radius) * step),
+        }
+    }
+
     /// Dashpots proportional to the stiffnesses so that a motion of angular frequency `omega`, rad/s, is damped by β.
     ///
     /// Derived here: a single contact has ω² = S_n/m*, for which c = 2 √(5/6) β √(S_n m*) = (2 √(5/6) β/ω) S_n. `dt` is the
-    /// step of the velocities they meet, s: they are weakened as `Dashpots::delayed` says, with c/m* = 2 √(5/6) β ω.
+    /// step of the velocities they meet, s, for which they are changed as [`stepped`] says, with c/m* = 2 √(5/6) β ω.
     #[inline]
     pub fn dashpots_at(&self, contact_radius: f64, omega: f64, dt: f64) -> Dashpots {
         let (sn, st) = (self.normal_stiffness(contact_radius), self.tangential_stiffness(contact_radius));
         let damped = DASHPOT * self.damping;
-        let factor = damped / omega * delay(damped * omega * dt);
+        let factor = damped / omega * stepped(damped * omega * dt, (omega * dt).powi(2));
         Dashpots { normal: factor * sn, tangential: factor * (sn * st).sqrt() }
     }
 
@@ -195,29 +208,36 @@ impl PairLaw {
     }
 }
 
+/// (3/2)^{5/4}/(5/4).
+const ONE: f64 = 1.328_018_303_640_386;
+
+/// Factor on the dashpots of a contact that began less than two steps ago, or ends in less: its `overlap` δ is below twice its
+/// `way` w along the normal in a step, m. Else 1.
+///
+/// Derived here: a force, given for one instant, acts from half a step before it to half a step after. At constant speed dashpots are
+/// c ∝ x^¼ with x = δ/w, the time since the contact began over the step. The first two instants of a contact, x and x + 1, are to
+/// give ∫₀^{x+3/2} s^¼ ds = (x + 3/2)^{5/4}/(5/4) together, which is [`ONE`] where there is but one, at x = 1. As x is not known
+/// exactly, the factor has no jumps: it grows from 0 to there and falls to 1, so that what it misses is below 3.4 %. The end is the
+/// same backwards. Without it restitution at 12 steps depends eight times as much on where in a step contacts begin and end.
+#[inline(always)]
+pub(super) fn brevity(overlap: f64, way: f64) -> f64 {
+    let x = (overlap / way).min(2.0);
+    if x < 1.0 { ONE * x * (1.55 - 0.55 * x) } else { 1.0 + (ONE - 1.0) * (2.0 - x).powi(2) }
+}
+
 /// A sphere answers a force on its rim 1 + m r²/I = 7/2 times as much as one through its centre.
 const RIM: f64 = 3.5;
 
-impl Dashpots {
-    /// The dashpots that damp as much as these when they meet velocities half a step of `dt` late; `dt_by_mass` is
-    /// dt over the reduced mass, s/kg.
-    ///
-    /// Derived here: on a late velocity v − a dt/2 a dashpot c' acts as c' on v, with the mass lowered from m to m − c' dt/2.
-    /// The damping ratio stays that of c if c'² = c² (1 − c' dt/2m), or c'/c = √(1 + q²/16) − q/4 with q = c dt/m.
-    #[inline(always)]
-    pub(super) fn delayed(self, dt_by_mass: f64) -> Self {
-        let Self { normal, tangential } = self;
-        Self {
-            normal: normal * delay(normal * dt_by_mass),
-            tangential: tangential * delay(RIM * tangential * dt_by_mass),
-        }
-    }
-}
-
-/// √(1 + q²/16) − q/4 but for q⁴/2048.
+/// Factor on dashpots that meet mean velocities of the step before, so that they damp as much as they are to: q = c dt/m of the
+/// step, `swing` = (ω dt)².
+///
+/// Derived here, from the eigenvalues of xₙ₊₁ − (2 − q' − ω² dt²) xₙ + (1 − q') xₙ₋₁ = 0. On a late velocity v − a dt/2 a dashpot c'
+/// acts as c' on v, with the mass lowered from m to m − c' dt/2: the damping ratio stays that of c if c'² = c² (1 − c' dt/2m), or
+/// c'/c = √(1 + q²/16) − q/4, which is 1 − q/4 + q²/32 but for q⁴/2048. Steps swing faster by (ω dt)²/24 than time does, so that the
+/// motion has to decay faster by as much.
 #[inline(always)]
-fn delay(q: f64) -> f64 {
-    1.0 - q * (0.25 - q / 32.0)
+fn stepped(q: f64, swing: f64) -> f64 {
+    (1.0 - q * (0.25 - q / 32.0)) * (1.0 + swing / 24.0)
 }
 
 /// β = −ln e / √(ln² e + π²); e = 0 gives the limit 1.

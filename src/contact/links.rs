@@ -171,11 +171,17 @@ impl Links {
         found
     }
 
-    /// Finds what touches and puts it into an empty batch. No branch depends on the outcome: none could be foreseen.
-    /// [`Links::keep`] must follow.
+    /// Finds what touches and puts it into an empty batch. No branch depends on the outcome: none could be foreseen. There are no
+    /// `poses` where all bodies are single spheres: they do not turn, and all links may touch. [`Links::keep`] must follow.
     #[inline(always)]
-    pub(super) fn touch(&mut self, desk: &mut LinkDesk, setting: &Setting<'_>, batch: &mut Batch) {
-        let Setting { motions, poses, balls, mixed, .. } = *setting;
+    pub(super) fn touch(
+        &mut self,
+        desk: &mut LinkDesk,
+        setting: &Setting<'_>,
+        poses: Option<&[Pose]>,
+        batch: &mut Batch,
+    ) {
+        let Setting { motions, balls, mixed, .. } = *setting;
         let LinkDesk { near, touching, .. } = desk;
         let before = self.step;
         self.step = before.wrapping_add(1);

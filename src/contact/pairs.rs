@@ -15,7 +15,6 @@ use super::law::Spring;
 use super::lease::Lease;
 use super::links::{Cursor, Link, Links};
 use super::side::Side;
-use super::sieve::Pose;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 use wide::f32x8;
@@ -47,8 +46,6 @@ pub(super) struct Setting<'a> {
     pub balls: &'a [Ball],
     pub bodies: &'a [BodyConstants],
     pub motions: &'a [Motion],
-    /// None where all bodies are single spheres: they do not turn, and all links may touch.
-    pub poses: Option<&'a [Pose]>,
     /// Distance each body's farthest sphere centre can have moved against the drum so far, m.
     pub odometers: &'a [f64],
     /// Of each body in the last step.

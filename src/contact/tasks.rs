@@ -9,6 +9,7 @@ use super::law::PairLaw;
 use super::links::{Cursor, LinkDesk};
 use super::pairs::{Pair, Scratch, Setting};
 use super::side::Side;
+use super::sieve::Pose;
 use super::walls::{Boundary, WallList, WallWatch};
 use crate::scene::DampingMass;
 use std::cell::RefCell;
@@ -49,6 +50,8 @@ pub(super) struct PairTask<'a> {
     pub group: &'a mut Group,
     pub desk: &'a mut Desk,
     pub setting: &'a Setting<'a>,
+    /// Of all bodies; none where all are single spheres.
+    pub poses: Option<&'a [Pose]>,
     pub laws: &'a [PairLaw],
     pub damping: DampingMass,
     pub keep_contacts: bool,
@@ -71,7 +74,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
             findings.rebuilt += u32::from(anew);
         }
         scratch.alert = alert;
-        links.touch(touching, setting, batch);
+        links.touch(touching, setting, self.poses, batch);
         let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
         let mut first = 0;
         while let Some((places, (a, b))) = touching.meeting(first, batch.len()) {

@@ -30,7 +30,7 @@ fn the_round_scene_is_the_papers_case() {
     let baffles = drum.baffles.expect("has baffles");
     assert_eq!((baffles.count, baffles.height, baffles.thickness), (4, 0.012, 0.006));
     assert_relative_eq!(baffles.tilt, PI / 9.0, max_relative = 1e-15);
-    assert_eq!(scene.time.step, StepChoice::PerContact(15.0));
+    assert_eq!(scene.time.step, StepChoice::PerContact(12.0));
     assert_eq!(scene.time.settle, Settle::Auto { at_most: 20.0 });
     assert_eq!((scene.time.duration, scene.time.frame_interval), (60.0, 0.02));
     let spray = scene.spray.expect("has a spray");

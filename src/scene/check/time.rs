@@ -11,7 +11,7 @@ use super::super::spec::{
 use super::{Allowed, Checker};
 
 /// Steps per contact unless the scene says otherwise.
-const STEPS_PER_CONTACT: f64 = 15.0;
+const STEPS_PER_CONTACT: f64 = 12.0;
 
 /// Steps per contact that can be asked for. Below one no contact is met; how few are worth a run is judged before it.
 const STEPS: Allowed = Allowed::from(1.0).to(1e5);
