@@ -116,6 +116,18 @@ fn lasts(name: &str) {
 }
 
 #[test]
+fn beds_of_round_and_almond_tablets_last() {
+    lasts("round");
+    lasts("almond");
+}
+
+#[test]
+fn beds_of_oval_and_triangular_tablets_last() {
+    lasts("oval");
+    lasts("triangular");
+}
+
+#[test]
 fn beds_of_capsules_and_bullets_last() {
     lasts("capsule");
     lasts("bullet");

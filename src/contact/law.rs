@@ -136,11 +136,11 @@ impl PairLaw {
     #[inline(always)]
     pub(super) fn dashpots_in_steps(&self, contact_radius: f64, mass: f64, dt: f64) -> Dashpots {
         let Dashpots { normal, tangential } = self.dashpots(contact_radius, mass);
-        let (step, by_mass) = (dt * dt / mass, dt / mass);
+        let (late, swing) = (dt / mass, dt * dt / mass);
         Dashpots {
-            normal: normal * stepped(normal * by_mass, self.normal_stiffness(contact_radius) * step),
+            normal: normal * stepped(normal * late, self.normal_stiffness(contact_radius) * swing),
             tangential: tangential
-                * stepped(RIM * tangential * by_mass, RIM * self.tangential_stiffness(contact_radius) * step),
+                * stepped(RIM * tangential * late, RIM * self.tangential_stiffness(contact_radius) * swing),
         }
     }
 
@@ -209,20 +209,20 @@ impl PairLaw {
 }
 
 /// (3/2)^{5/4}/(5/4).
-const ONE: f64 = 1.328_018_303_640_386;
+const SINGLE: f64 = 1.328_018_303_640_386;
 
 /// Factor on the dashpots of a contact that began less than two steps ago, or ends in less: its `overlap` δ is below twice its
 /// `way` w along the normal in a step, m. Else 1.
 ///
 /// Derived here: a force, given for one instant, acts from half a step before it to half a step after. At constant speed dashpots are
 /// c ∝ x^¼ with x = δ/w, the time since the contact began over the step. The first two instants of a contact, x and x + 1, are to
-/// give ∫₀^{x+3/2} s^¼ ds = (x + 3/2)^{5/4}/(5/4) together, which is [`ONE`] where there is but one, at x = 1. As x is not known
+/// give ∫₀^{x+3/2} s^¼ ds = (x + 3/2)^{5/4}/(5/4) together, which is [`SINGLE`] where there is but one, at x = 1. As x is not known
 /// exactly, the factor has no jumps: it grows from 0 to there and falls to 1, so that what it misses is below 3.4 %. The end is the
 /// same backwards. Without it restitution at 12 steps depends eight times as much on where in a step contacts begin and end.
 #[inline(always)]
 pub(super) fn brevity(overlap: f64, way: f64) -> f64 {
     let x = (overlap / way).min(2.0);
-    if x < 1.0 { ONE * x * (1.55 - 0.55 * x) } else { 1.0 + (ONE - 1.0) * (2.0 - x).powi(2) }
+    if x < 1.0 { SINGLE * x * (1.55 - 0.55 * x) } else { 1.0 + (SINGLE - 1.0) * (2.0 - x).powi(2) }
 }
 
 /// A sphere answers a force on its rim 1 + m r²/I = 7/2 times as much as one through its centre.
