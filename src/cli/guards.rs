@@ -15,8 +15,8 @@ const UNSTABLE: f64 = 2.0;
 const MOST_STEPS: f64 = 1e9;
 /// Farthest that a body may move in a step, of its smallest sphere's radius.
 const FARTHEST_TRAVEL: f64 = 0.1;
-/// Share of bodies and steps in which forces may be lowered because a body is stiffer than the step bears. A bed with 10 steps
-/// in a contact stays at half of it (docs/accuracy.md).
+/// Share of bodies and steps in which forces may be lowered because a body is stiffer than the step bears. The paper's bed
+/// with 10 steps in a contact stays below it (docs/accuracy.md).
 const OFTEN_STIFF: f64 = 1e-3;
 /// Overlap over radius above which a contact is no longer small, as Hertz theory takes it.
 const LARGE_OVERLAP: f64 = 0.05;

@@ -30,6 +30,8 @@ pub(super) struct Outline {
     pub bounding_radius: f64,
     /// Largest distance of a sphere's centre from the centre of mass, m.
     pub reach: f64,
+    /// See [`softness`], dimensionless.
+    pub softness: f64,
     /// The spheres once more, for sieves.
     pub grains: Vec<Grains>,
     /// The spheres once more. Places left over hold a sphere of radius −∞.
@@ -37,8 +39,8 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// `grain` in m.
-    pub(super) fn new(clump: &Clump, first: u32, grain: f64) -> Self {
+    /// `inertia`: principal moments over mass, m²; `grain` in m.
+    pub(super) fn new(clump: &Clump, inertia: &Vector3<f64>, first: u32, grain: f64) -> Self {
         let ball = |s: &crate::shapes::Sphere| Ball { center: s.center, radius: s.radius };
         let balls: Vec<Ball> = clump.spheres.iter().map(ball).collect();
         let eights = balls.chunks(8).map(|balls| {
@@ -51,6 +53,7 @@ impl Outline {
         Self {
             bounding_radius: clump.bounding_radius(),
             reach: clump.reach(),
+            softness: softness(clump, inertia),
             grains: balls.iter().map(|ball| Grains::of(ball, grain)).collect(),
             eights: eights.collect(),
             balls,
@@ -68,21 +71,6 @@ impl Outline {
         [x[k], y[k], z[k], radius[k]]
     }
 
-    /// Bound of how much more a body answers a force at any place of its surface than one through its centre of mass, with its
-    /// principal moments over mass, m²: dimensionless.
-    ///
-    /// At r from the centre of mass that is the largest eigenvalue of 1 + X I⁻¹ Xᵀ, or 1 + ‖I^-½ X‖², with X v = r × v. On a sphere
-    /// r = c + ρ n, and ‖I^-½ X‖ is no more than that of c and ρ/√I, I the smallest moment, together.
-    pub(super) fn softness(&self, inertia: &Vector3<f64>) -> f64 {
-        let easiest = 1.0 / inertia.min().sqrt();
-        let turned = self.balls.iter().map(|ball| {
-            let turn = Matrix3::from_diagonal(&inertia.map(|i| 1.0 / i.sqrt())) * ball.center.cross_matrix();
-            (turn * turn.transpose()).symmetric_eigenvalues().max().sqrt() + ball.radius * easiest
-        });
-        let anywhere = self.bounding_radius * easiest;
-        1.0 + turned.fold(0.0, f64::max).min(anywhere).powi(2)
-    }
-
     /// Middle of some of the spheres, m.
     #[inline(always)]
     pub(super) fn middle(&self, spheres: &[u16]) -> Vector3<f32> {
@@ -92,6 +80,21 @@ impl Outline {
         });
         centers.sum::<Vector3<f32>>() / spheres.len() as f32
     }
+}
+
+/// Bound of how much more a body answers a force at any place of its surface than one through its centre of mass, with its
+/// principal moments over mass, m²: dimensionless.
+///
+/// At r from the centre of mass that is the largest eigenvalue of 1 + X I⁻¹ Xᵀ, or 1 + ‖I^-½ X‖², with X v = r × v. On a sphere
+/// r = c + ρ n, and ‖I^-½ X‖ is no more than that of c and ρ/√I, I the smallest moment, together.
+fn softness(clump: &Clump, inertia: &Vector3<f64>) -> f64 {
+    let easiest = 1.0 / inertia.min().sqrt();
+    let turned = clump.spheres.iter().map(|sphere| {
+        let turn = Matrix3::from_diagonal(&inertia.map(|i| 1.0 / i.sqrt())) * sphere.center.cross_matrix();
+        (turn * turn.transpose()).symmetric_eigenvalues().max().sqrt() + sphere.radius * easiest
+    });
+    let anywhere = clump.bounding_radius() * easiest;
+    1.0 + turned.fold(0.0, f64::max).min(anywhere).powi(2)
 }
 
 /// Constants of one body.
@@ -105,7 +108,7 @@ pub(super) struct BodyConstants {
     pub inverse_mass: f64,
     /// Inverse principal moments, 1/(kg m²).
     pub inverse_inertia: Vector3<f64>,
-    /// Bound of its response to a force at any place of its surface: see [`Outline::softness`], 1/kg.
+    /// Bound of its response to a force at any place of its surface: see [`softness`], 1/kg.
     pub softness: f64,
 }
 
@@ -133,17 +136,17 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// No force at the surface of a rod of three spheres is answered more than its softness says, one across its end hardly
-    /// less; a sphere's is that on its rim.
+    /// No force at the surface of a rod of three spheres is answered more than its softness says, and that is no loose bound; a
+    /// sphere's is the answer on its rim.
     #[test]
     fn softness_bounds_the_answer_to_any_force() {
-        let softness = |centers: &[f64], inertia| {
+        let rod = |centers: &[f64]| {
             let sphere = |z: &f64| Sphere { center: Vector3::z() * *z, radius: 1.0 };
-            Outline::new(&Clump { spheres: centers.iter().map(sphere).collect() }, 0, 1.0).softness(&inertia)
+            Clump { spheres: centers.iter().map(sphere).collect() }
         };
-        assert_relative_eq!(softness(&[0.0], Vector3::repeat(0.4)), 3.5, max_relative = 1e-12);
+        assert_relative_eq!(softness(&rod(&[0.0]), &Vector3::repeat(0.4)), 3.5, max_relative = 1e-12);
         let inertia = Vector3::new(4.0, 4.0, 0.5);
-        let bound = softness(&[-3.0, 0.0, 3.0], inertia);
+        let bound = softness(&rod(&[-3.0, 0.0, 3.0]), &inertia);
         let random = &mut ChaCha8Rng::seed_from_u64(1);
         let mut unit = || Vector3::from_fn(|_, _| random.random_range(-1.0..1.0_f64)).normalize();
         let answers = (0..10_000).map(|k| {

@@ -78,8 +78,6 @@ pub struct Tally {
 #[derive(Clone)]
 pub struct ContactField {
     outlines: Vec<Outline>,
-    /// Of each outline: see [`Outline::softness`].
-    softness: Vec<f64>,
     /// The spheres of all outlines.
     balls: Vec<Ball>,
     bodies: Vec<BodyConstants>,
@@ -116,12 +114,11 @@ impl ContactField {
         let grain = GRAIN * largest;
         let mut balls = Vec::new();
         let outlines = shapes.iter().map(|shape| {
-            let outline = Outline::new(&shape.clump, balls.len() as u32, grain);
+            let outline = Outline::new(&shape.clump, &shape.inertia_per_mass, balls.len() as u32, grain);
             balls.extend_from_slice(&outline.balls);
             outline
         });
         let outlines: Vec<_> = outlines.collect();
-        let softness = outlines.iter().zip(shapes).map(|(o, shape)| o.softness(&shape.inertia_per_mass));
         let single = balls.iter().all(|ball| ball.center == Vector3::zeros());
         let n = scene.materials.len();
         let laws = (0..n * n).map(|k| {
@@ -129,7 +126,6 @@ impl ContactField {
             PairLaw::new(&scene.materials[a], &scene.materials[b], scene.pairs.get(a, b), scene.contact)
         });
         Self {
-            softness: softness.collect(),
             outlines,
             balls,
             bodies: Vec::new(),
@@ -156,7 +152,7 @@ impl ContactField {
         let body = self.bodies.len() as u32;
         let inverse_inertia = inertia.map(|i| 1.0 / i);
         let inverse_mass = 1.0 / mass;
-        let softness = inverse_mass * self.softness[shape];
+        let softness = inverse_mass * self.outlines[shape].softness;
         self.loads.push(Load::default());
         self.mixed |= self.bodies.first().is_some_and(|first| first.material != material);
         self.bodies.push(BodyConstants { shape, material, inverse_mass, inverse_inertia, softness });

@@ -156,7 +156,7 @@ mod tests {
         for _ in 0..2000 {
             let clumps = [clump(random), clump(random)];
             let grain = GRAIN * clumps.iter().map(Clump::bounding_radius).fold(0.0, f64::max);
-            let outlines = [0, 1].map(|k| Outline::new(&clumps[k], 0, grain));
+            let outlines = [0, 1].map(|k| Outline::new(&clumps[k], &Vector3::repeat(1.0), 0, grain));
             let pairs: Vec<_> = (0..8).map(|i| (i, random.random_range(0..8))).collect();
             let sieve = Sieve::of((0, 1), [&outlines[0], &outlines[1]], &pairs);
             let position = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0));
