@@ -135,13 +135,11 @@ impl Batch {
         (places, springs): (Range<usize>, impl Iterator<Item = Spring>),
         law: usize,
         (side_a, side_b): (&Side<'_>, &Side<'_>),
-        dt: f64,
     ) {
         let (ma, mb) = (side_a.motion, side_b.motion);
         let offset = mb.position - ma.position;
-        let mass = 1.0 / (side_a.inverse_mass + side_b.inverse_mass);
-        // What is left of the dashpots beside those of the bodies' other contacts.
-        let ease = (2.0 * DAMPED / (dt * (side_a.drag + side_b.drag))).min(1.0);
+        let inverse_mass = side_a.inverse_mass + side_b.inverse_mass;
+        let drag = side_a.drag + side_b.drag;
         // The velocity of b against a is `drift + turn × arm`.
         let drift = mb.velocity - ma.velocity - mb.spin.cross(&offset);
         let turn = mb.spin - ma.spin;
@@ -151,8 +149,8 @@ impl Batch {
         for (place, spring) in places.zip(springs) {
             let (block, k) = (&mut self.blocks[place / LANES], place % LANES);
             block.law = law;
-            block.mass[k] = mass;
-            block.ease[k] = ease;
+            block.inverse_mass[k] = inverse_mass;
+            block.drag[k] = drag;
             set(&mut block.drift, k, &drift);
             set(&mut block.turn, k, &turn);
             set(&mut block.spin, k, &spin);
@@ -170,7 +168,7 @@ impl Batch {
     ) {
         let blocks = &mut self.blocks[..self.len.div_ceil(LANES)];
         for block in blocks.iter_mut() {
-            block.place(&laws[block.law], rule);
+            block.place(laws[block.law], *rule);
         }
         for meeting in &self.meetings {
             if rule.damping == DampingMass::Contact || meeting.count >= CROWD {

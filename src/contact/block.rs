@@ -3,7 +3,7 @@
 use super::batch::{Place, Rule};
 use super::energy::Press;
 use super::law::{Dashpots, PairLaw, Spring, Touch, brevity};
-use super::side::Felt;
+use super::side::{DAMPED, Felt};
 use crate::scene::TangentialLaw;
 use nalgebra::Vector3;
 
@@ -44,8 +44,10 @@ pub(super) struct Block {
     pub radius: Lanes,
     /// Radius of b's sphere; 0 for a surface, m.
     pub other: Lanes,
-    pub mass: Lanes,
-    pub ease: Lanes,
+    /// Sum of both bodies', 1/kg.
+    pub inverse_mass: Lanes,
+    /// See [`Side`](super::side::Side), sum of both bodies', 1/s.
+    pub drag: Lanes,
     pub drift: Lanes3,
     pub turn: Lanes3,
     pub spin: Lanes3,
@@ -72,8 +74,8 @@ pub(super) const EMPTY: Block = Block {
     between: [ONE, ZERO, ZERO],
     radius: ONE,
     other: ONE,
-    mass: ONE,
-    ease: ONE,
+    inverse_mass: ONE,
+    drag: ONE,
     drift: ZERO3,
     turn: ZERO3,
     spin: ZERO3,
@@ -110,7 +112,7 @@ impl Block {
 
     /// Where and how the contacts touch, and the dashpots of each by itself.
     #[inline(always)]
-    pub(super) fn place(&mut self, law: &PairLaw, rule: &Rule) {
+    pub(super) fn place(&mut self, law: PairLaw, rule: Rule) {
         for k in 0..LANES {
             let mut between = get(&self.between, k);
             // One of two centres in one place is above the other.
@@ -119,13 +121,15 @@ impl Block {
             let normal = between * (1.0 / distance);
             let overlap = self.radius[k] + self.other[k] - distance;
             let curvature = 1.0 / self.radius[k];
-            let other_curvature = if self.other[k] > 0.0 { 1.0 / self.other[k] } else { 0.0 };
+            // Without a branch: none for a surface.
+            let flat = f64::from(u8::from(self.other[k] == 0.0));
+            let other_curvature = (1.0 - flat) / (self.other[k] + flat);
             let contact_radius = (overlap / (curvature + other_curvature)).sqrt();
             let arm = get(&self.arm, k) + normal * (self.radius[k] - rule.inside * overlap);
             let velocity = get(&self.drift, k) + get(&self.turn, k).cross(&arm);
             let brief = brevity(overlap, velocity.dot(&normal).abs() * rule.dt);
             let Dashpots { normal: across, tangential: along } =
-                law.dashpots_in_steps(contact_radius, self.mass[k], rule.dt);
+                law.dashpots_in_steps(contact_radius, self.inverse_mass[k], rule.dt);
             set(&mut self.arm, k, &arm);
             set(&mut self.normal, k, &normal);
             set(&mut self.velocity, k, &velocity);
@@ -161,10 +165,10 @@ impl Block {
                 velocity: get(&self.velocity, k),
                 twirl: get(&self.spin, k).dot(&normal),
             };
-            let dashpots = Dashpots {
-                normal: self.dashpot[0][k] * self.ease[k],
-                tangential: self.dashpot[1][k] * self.ease[k],
-            };
+            // What is left of the dashpots beside those of the bodies' other contacts.
+            let left = (2.0 * DAMPED / (dt * self.drag[k])).min(1.0);
+            let dashpots =
+                Dashpots { normal: self.dashpot[0][k] * left, tangential: self.dashpot[1][k] * left };
             let mut spring = self.springs.get(k);
             let pressed = law.force(&touch, self.contact_radius[k], dashpots, dt, &mut spring);
             let force = normal * pressed.normal + pressed.tangential;

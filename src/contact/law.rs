@@ -132,11 +132,11 @@ impl PairLaw {
     }
 
     /// The dashpots that do in steps of `dt` s, on the mean velocity of the step before, what [`PairLaw::dashpots`] do at all
-    /// instants.
+    /// instants; `inverse_mass` in 1/kg.
     #[inline(always)]
-    pub(super) fn dashpots_in_steps(&self, contact_radius: f64, mass: f64, dt: f64) -> Dashpots {
-        let Dashpots { normal, tangential } = self.dashpots(contact_radius, mass);
-        let (late, swing) = (dt / mass, dt * dt / mass);
+    pub(super) fn dashpots_in_steps(&self, contact_radius: f64, inverse_mass: f64, dt: f64) -> Dashpots {
+        let Dashpots { normal, tangential } = self.dashpots(contact_radius, 1.0 / inverse_mass);
+        let (late, swing) = (dt * inverse_mass, dt * dt * inverse_mass);
         Dashpots {
             normal: normal * stepped(normal * late, self.normal_stiffness(contact_radius) * swing),
             tangential: tangential
@@ -221,8 +221,10 @@ const SINGLE: f64 = 1.328_018_303_640_386;
 /// same backwards. Without it restitution at 12 steps depends eight times as much on where in a step contacts begin and end.
 #[inline(always)]
 pub(super) fn brevity(overlap: f64, way: f64) -> f64 {
+    // Up to x = 1, and what changes from there on.
     let x = (overlap / way).min(2.0);
-    if x < 1.0 { SINGLE * x * (1.55 - 0.55 * x) } else { 1.0 + (SINGLE - 1.0) * (2.0 - x).powi(2) }
+    let (x, left) = (x.min(1.0), 2.0 - x.max(1.0));
+    SINGLE * x * (1.55 - 0.55 * x) + (SINGLE - 1.0) * (left * left - 1.0)
 }
 
 /// A sphere answers a force on its rim 1 + m r²/I = 7/2 times as much as one through its centre.

@@ -15,6 +15,7 @@ use super::law::Spring;
 use super::lease::Lease;
 use super::links::{Cursor, Link, Links};
 use super::side::Side;
+use super::walls::Grip;
 use crate::world::{Motion, Relative};
 use nalgebra::Vector3;
 use wide::f32x8;
@@ -34,9 +35,9 @@ pub(super) struct Pair {
 /// The lease of a pair's list; what it lists are links.
 #[derive(Debug, Clone, PartialEq)]
 struct PairList {
-    listed: Lease,
-    /// Unit vector from a to b along which their surfaces were nearest, a's axes.
-    axis: Vector3<f64>,
+    lease: Lease,
+    /// Unit vector from a to b along which their surfaces were nearest, a's axes; zero if they never were near.
+    axis: Vector3<f32>,
 }
 
 /// What a pair reads while it works.
@@ -96,16 +97,17 @@ pub(super) struct Scratch {
     spheres: Vec<(u16, u16)>,
     links: Vec<Link>,
     pub places: Vec<(Place, Spring)>,
-    /// Facets near a body.
+    /// Facets near a body, and what of it touches walls.
     pub facets: Vec<u32>,
-    /// Pairs to look at.
+    pub grips: Vec<Grip>,
+    /// Pairs to look at, and their leases.
     pub alert: Vec<u32>,
+    pub leases: Vec<Lease>,
 }
 
 impl Pair {
     pub(super) fn new((a, b): (u32, u32)) -> Self {
-        let list = PairList { listed: Lease::NONE, axis: Vector3::zeros() };
-        Self { a, b, mark: f64::NEG_INFINITY, list: Box::new(list) }
+        Self { a, b, mark: f64::NEG_INFINITY, list: Box::new(PairList::NONE) }
     }
 
     pub(super) fn key(&self) -> (u32, u32) {
@@ -118,59 +120,69 @@ impl Pair {
         self.mark <= odometers[self.a as usize] + odometers[self.b as usize]
     }
 
-    /// Sees whether the list is still complete, and makes it anew if not. Returns whether it is new.
+    /// What its list is good for.
+    #[inline(always)]
+    pub(super) fn lease(&self) -> Lease {
+        self.list.lease
+    }
+
+    /// Sees whether a list with this lease is still complete, and notes until when it surely is. False if it is worn.
+    #[inline(always)]
+    pub(super) fn holds(&mut self, lease: &Lease, setting: &Setting<'_>) -> bool {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let left = lease.left(&setting.motions[b].seen_from(&setting.motions[a]));
+        self.mark = setting.odometers[a] + setting.odometers[b] + left;
+        lease.holds(left)
+    }
+
+    /// Makes the list anew: for a pose ahead, or for the present one if that is not good enough.
     #[inline(always)]
     pub(super) fn renew(
         &mut self,
         setting: &Setting<'_>,
         scratch: &mut Scratch,
         (links, cursor): (&mut Links, &mut Cursor),
-    ) -> bool {
-        let (key, list) = (self.key(), &mut *self.list);
+    ) {
         let (a, b) = (self.a as usize, self.b as usize);
         let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
-        let (oa, ob) = (setting.outline(a), setting.outline(b));
-        let at = mb.seen_from(ma);
-        let mut left = list.listed.left(&at);
-        let anew = !list.listed.holds(left);
-        if anew {
-            let skin = skin(setting, ma, mb, &list.listed);
-            list.list([oa, ob], at, skin, scratch);
-            links.replace(cursor, key, [oa, ob], &scratch.spheres, &mut scratch.links);
-            left = list.listed.allowance;
+        let outlines = [setting.outline(a), setting.outline(b)];
+        let (at, course) = (mb.seen_from(ma), mb.course_from(ma));
+        let former = self.lease();
+        let speed = course.speed(&(at.rotation * former.about()), former.lever());
+        let skin = skin(setting, speed);
+        self.list.make(outlines, at.ahead(&course, speed, skin), skin, scratch);
+        if !self.holds(&self.lease(), setting) {
+            self.list.make(outlines, at, skin, scratch);
+            self.holds(&self.lease(), setting);
         }
-        self.mark = setting.odometers[a] + setting.odometers[b] + left;
-        anew
+        links.replace(cursor, self.key(), outlines, &scratch.spheres, &mut scratch.links);
     }
 }
 
 impl PairList {
+    const NONE: Self = Self { lease: Lease::NONE, axis: Vector3::new(0.0, 0.0, 0.0) };
+
     /// Lists the sphere pairs with a gap below the skin, m; `at` is b's pose in a's axes.
     #[inline(always)]
-    fn list(&mut self, [oa, ob]: [&Outline; 2], at: Relative, skin: f64, scratch: &mut Scratch) {
+    fn make(&mut self, [oa, ob]: [&Outline; 2], at: Relative, skin: f64, scratch: &mut Scratch) {
         let Scratch { extents: [of_a, of_b], foremost, near, spheres, .. } = scratch;
-        if self.axis == Vector3::zeros() {
-            self.axis = at.position.try_normalize(0.0).unwrap_or_else(Vector3::y);
-        }
+        let never_near = self.axis == Vector3::zeros();
+        let axis = if never_near { at.position } else { self.axis.map(f64::from) };
+        let axis = axis.try_normalize(0.0).unwrap_or_else(Vector3::y);
         let to_f32 = |v: &Vector3<f64>| v.map(|x| x as f32);
         let (apart, turn) = (to_f32(&at.position), at.rotation.map(|x| x as f32));
-        of_a.measure(oa, &to_f32(&self.axis));
-        of_b.measure(ob, &to_f32(&at.rotation.tr_mul(&-self.axis)));
+        of_a.measure(oa, &to_f32(&axis));
+        of_b.measure(ob, &to_f32(&at.rotation.tr_mul(&-axis)));
         let slack = rounding(oa, ob);
         // At most the gap between the bodies: what the axis leaves between them.
-        let between = apart.dot(&to_f32(&self.axis)) - of_a.most - of_b.most - slack;
+        let between = apart.dot(&to_f32(&axis)) - of_a.most - of_b.most - slack;
         let allowance = (skin as f32).max(between);
         let depth = allowance - between;
         // Bodies apart are followed where they are nearest.
         of_b.foremost(depth.max(allowance), foremost);
         let about = ob.middle(foremost);
         let lever = of_b.lever(ob, &about, depth, allowance);
-        self.listed = Lease {
-            at,
-            about: about.map(f64::from),
-            lever: f64::from(lever),
-            allowance: f64::from(allowance),
-        };
+        self.lease = Lease::new(&at, &about, f64::from(lever), f64::from(allowance));
         spheres.clear();
         if depth <= 0.0 {
             return;
@@ -182,7 +194,7 @@ impl PairList {
         }
         of_a.foremost(depth, foremost);
         near.list(oa, foremost, spheres);
-        self.axis = near.nearest().map(f64::from).try_normalize(0.0).unwrap_or(self.axis);
+        self.axis = near.nearest().try_normalize(0.0).unwrap_or(to_f32(&axis));
     }
 }
 
@@ -267,12 +279,7 @@ fn rounding(a: &Outline, b: &Outline) -> f32 {
 
 /// Skin of a new list, m: wider for bodies that move fast against each other.
 #[inline(always)]
-fn skin(setting: &Setting<'_>, a: &Motion, b: &Motion, lease: &Lease) -> f64 {
-    let arm = b.rotation * lease.about;
-    let there = b.position + arm - a.position;
-    let (spin, velocity) =
-        (b.spin - a.spin, b.velocity + b.spin.cross(&arm) - a.velocity - a.spin.cross(&there));
-    let speed = velocity.norm() + spin.norm() * lease.lever;
+fn skin(setting: &Setting<'_>, speed: f64) -> f64 {
     let (least, most) = SKIN;
     (speed * setting.dt * LENGTH * setting.skin).sqrt().clamp(least * setting.skin, most * setting.skin)
 }

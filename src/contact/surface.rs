@@ -133,19 +133,22 @@ impl Surface {
             let (height, past) = all[f as usize].over(p);
             if past < 0.0 && height * height < least {
                 others = others.min(least);
-                (least, above) = (height * height, Some(f));
+                (least, above) = (height * height, Some((f, height)));
             } else {
                 others = others.min(square(height, past));
             }
         }
-        let inside = |f: u32| {
-            let Facet { corners, normal, .. } = &all[f as usize];
-            (f, normal * normal.dot(&(corners[0] - p)), &[][..])
-        };
-        let mut best = above.map(inside);
-        let doubtful = if others < SURELY * least { facets } else { &[] };
-        for &f in doubtful {
-            if Some(f) != above && all[f as usize].least(p) < SURELY * least {
+        let mut best = None;
+        if let Some((f, height)) = above {
+            let normal = &all[f as usize].normal;
+            if others >= SURELY * least {
+                let to = -height.signum();
+                return Nearest { distance: height.abs(), normal: normal * to, shared: &[] };
+            }
+            best = Some((f, normal * -height, &[][..]));
+        }
+        for &f in facets {
+            if above.is_none_or(|(above, _)| f != above) && all[f as usize].least(p) < SURELY * least {
                 let (to, shared) = all[f as usize].closest(p);
                 if to.norm_squared() < least {
                     (least, best) = (to.norm_squared(), Some((f, to, shared)));

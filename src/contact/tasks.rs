@@ -6,6 +6,7 @@ use super::batch::{Batch, Exchange, Rule};
 use super::energy::Press;
 use super::groups::Group;
 use super::law::PairLaw;
+use super::lease::Lease;
 use super::links::{Cursor, LinkDesk};
 use super::pairs::{Pair, Scratch, Setting};
 use super::side::Side;
@@ -67,12 +68,13 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
         let Group { pairs, links, findings } = self.group;
         findings.clear();
         let mut alert = std::mem::take(&mut scratch.alert);
-        let count = find(&mut alert, pairs, setting.odometers);
+        let spent = find(&mut alert, pairs, setting.odometers);
+        let worn = worn(&mut alert[..spent], pairs, &mut scratch.leases, setting);
         let mut cursor = Cursor::default();
-        for &k in &alert[..count] {
-            let anew = pairs[k as usize].renew(setting, scratch, (links, &mut cursor));
-            findings.rebuilt += u32::from(anew);
+        for &k in &alert[..worn] {
+            pairs[k as usize].renew(setting, scratch, (links, &mut cursor));
         }
+        findings.rebuilt = worn as u32;
         scratch.alert = alert;
         links.touch(touching, setting, self.poses, batch);
         let rule = Rule { damping: self.damping, inside: 0.5, dt: setting.dt };
@@ -82,7 +84,7 @@ impl pulp::NullaryFnOnce for PairTask<'_> {
             let sides = (&setting.side(a as usize), &setting.side(b as usize));
             let law = setting.law_of(a as usize, b as usize);
             let springs = touching.former(places.clone());
-            batch.meet((a, b), 0, (places, springs), law, sides, setting.dt);
+            batch.meet((a, b), 0, (places, springs), law, sides);
         }
         batch.work_out(self.laws, &rule, |a, b| (setting.side(a as usize), setting.side(b as usize)));
         for meeting in batch.meetings() {
@@ -107,6 +109,23 @@ fn find(found: &mut Vec<u32>, pairs: &[Pair], odometers: &[f64]) -> usize {
     for (k, pair) in pairs.iter().enumerate() {
         found[count] = k as u32;
         count += usize::from(pair.spent(odometers));
+    }
+    count
+}
+
+/// Puts those of the numbers first whose lists are to be made anew, and returns how many there are. Leases are fetched before
+/// any is looked at: they come from memory side by side then.
+#[inline(always)]
+fn worn(numbers: &mut [u32], pairs: &mut [Pair], leases: &mut Vec<Lease>, setting: &Setting<'_>) -> usize {
+    leases.clear();
+    for &k in &*numbers {
+        leases.push(pairs[k as usize].lease());
+    }
+    let mut count = 0;
+    for (at, lease) in leases.iter().enumerate() {
+        let k = numbers[at];
+        numbers[count] = k;
+        count += usize::from(!pairs[k as usize].holds(lease, setting));
     }
     count
 }
@@ -139,7 +158,7 @@ impl pulp::NullaryFnOnce for WallTask<'_> {
         };
         for (k, watch) in watches.iter_mut().enumerate().filter(|(_, w)| w.alert(setting.odometers)) {
             let boundary = &boundaries[watch.surface as usize];
-            lists[k].refresh(watch, setting, boundary, &mut scratch.facets);
+            lists[k].refresh(watch, setting, boundary, scratch);
             lists[k].look(watch, k, setting, boundary, scratch, batch);
         }
         batch.work_out(self.laws, &rule, sides);

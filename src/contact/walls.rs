@@ -108,7 +108,7 @@ impl WallList {
         watch: &mut WallWatch,
         setting: &Setting<'_>,
         boundary: &Boundary,
-        scratch: &mut Vec<u32>,
+        Scratch { facets: near, grips: memory, .. }: &mut Scratch,
     ) {
         let body = watch.body as usize;
         let travelled = setting.odometers[body];
@@ -123,19 +123,19 @@ impl WallList {
             return;
         }
         if self.sought.left(&now) < setting.skin {
-            scratch.clear();
+            near.clear();
             if let Some(facets) = &boundary.facets {
                 let reach = Vector3::repeat(outline.bounding_radius + LOOKOUT * setting.skin);
-                facets.near(&(now.position - reach), &(now.position + reach), scratch);
+                facets.near(&(now.position - reach), &(now.position + reach), near);
             } else {
-                scratch.push(0);
+                near.push(0);
             }
-            self.seek(outline, &boundary.surface, now, setting.skin, scratch);
+            self.seek(outline, &boundary.surface, now, setting.skin, near);
         }
         // What is no candidate has at least this gap.
-        self.listed = Lease { at: now, allowance: self.sought.left(&now), ..self.sought };
-        self.list(outline, &boundary.surface, setting.skin);
-        self.mark = travelled + self.listed.allowance;
+        let rest = self.sought.left(&now);
+        self.listed = self.list(outline, &boundary.surface, now, (setting.skin, rest), memory);
+        self.mark = travelled + self.listed.left(&now);
     }
 
     /// Finds the candidates among the facets `near`: eight spheres at a time, with what their gap is at least.
@@ -162,14 +162,23 @@ impl WallList {
         self.candidates.sort_unstable();
         let nearest = nearest.to_array().into_iter().fold(f32::INFINITY, f32::min);
         let allowance = f64::from(nearest).max(wide) - ROUNDING * (outline.bounding_radius + lookout);
-        self.sought = Lease { at, about: Vector3::zeros(), lever: outline.reach, allowance };
+        self.sought = Lease::new(&at, &Vector3::zeros(), outline.reach, allowance);
     }
 
-    /// Lists the candidates with a gap below the skin; springs of touching spheres stay.
-    fn list(&mut self, outline: &Outline, surface: &Surface, skin: f64) {
-        let Lease { at: Relative { position, rotation }, allowance, .. } = &mut self.listed;
-        let old = std::mem::take(&mut self.grips);
-        let mut memory = old.into_iter().filter(|g| g.touching).peekable();
+    /// Lists the candidates with a gap below the skin, and returns the lease of that: what is no candidate has a gap of `rest` at
+    /// least, both in m. Springs of touching spheres stay; `memory` is where they are meanwhile.
+    fn list(
+        &mut self,
+        outline: &Outline,
+        surface: &Surface,
+        at: Relative,
+        (skin, rest): (f64, f64),
+        memory: &mut Vec<Grip>,
+    ) -> Lease {
+        let mut allowance = rest;
+        let Relative { position, rotation } = &at;
+        memory.extend(self.grips.drain(..).filter(|grip| grip.touching));
+        let mut memory = memory.drain(..).peekable();
         self.facets.clear();
         let patches = self.candidates.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
         for candidates in patches {
@@ -178,14 +187,14 @@ impl WallList {
             let center = *position + *rotation * center;
             let first = self.facets.len() as u32;
             for &(.., f) in candidates {
-                if surface.beyond(f, &center, radius + *allowance) {
+                if surface.beyond(f, &center, radius + allowance) {
                     continue;
                 }
                 let gap = surface.nearest(&center, &[f]).distance - radius;
                 if gap < skin {
                     self.facets.push(f);
                 } else {
-                    *allowance = allowance.min(gap);
+                    allowance = allowance.min(gap);
                 }
             }
             let facets = (first, self.facets.len() as u32);
@@ -201,6 +210,7 @@ impl WallList {
             self.grips.push(Grip { sphere, patch, facets, touching, until: f64::NEG_INFINITY, spring });
         }
         self.grips.extend(memory.map(|gone| Grip { facets: (0, 0), ..gone }));
+        Lease::new(&at, &Vector3::zeros(), outline.reach, allowance)
     }
 
     /// Hands what touches to `batch`, whose owner keeps this list at `list`.
@@ -260,7 +270,7 @@ impl WallList {
             let sides = (&setting.side(body), &Side::surface(surface));
             let springs = places.iter().map(|(_, spring)| *spring);
             let places = (batch.add(law, places.iter().map(|(place, _)| place)), springs);
-            batch.meet((watch.body, watch.surface), list, places, law, sides, setting.dt);
+            batch.meet((watch.body, watch.surface), list, places, law, sides);
         }
     }
 

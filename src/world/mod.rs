@@ -20,7 +20,7 @@ mod tuning;
 
 pub use facets::FacetTree;
 pub use impulse::ImpulseWorld;
-pub use motion::{Motion, Relative};
+pub use motion::{Course, Motion, Relative};
 
 use crate::shapes::{Clump, SurfaceMesh};
 use boxes::Boxes;
@@ -55,7 +55,7 @@ pub struct NearChanges {
 /// What a tablet's box is worth.
 #[derive(Clone)]
 struct Track {
-    /// Pose that Rapier knows, seen from the carrier.
+    /// Pose that Rapier knows, seen from the carrier: one ahead of that in which the tablet was when the box was put.
     known: Relative,
     /// How far the tablet may move from there, m.
     margin: f64,
@@ -183,18 +183,19 @@ impl World {
                 self.marks[k] = odometers[k] + track.margin - moved;
                 continue;
             }
-            let velocity = motion.velocity - carrier.velocity_at(&(motion.position - carrier.position));
-            let speed = velocity.norm() + (motion.spin - carrier.spin).norm() * track.reach;
+            let course = motion.course_from(carrier);
+            let speed = course.speed(&Vector3::zeros(), track.reach);
             let (least, most) = tuning::MARGIN;
             let size = track.bounding_radius;
             let margin = (speed * tuning::HORIZON).clamp(least * size, most * size);
-            let pose = pose(&now);
+            track.known = now.ahead(&course, speed, margin);
+            track.margin = margin - tuning::ROUNDING;
+            let pose = pose(&track.known);
             self.bodies[*body].set_position(pose, false);
             let bounds = self.colliders[*collider].shape().compute_aabb(&pose).loosened(margin as f32);
             self.boxes.put(k as u32, bounds);
-            track.known = now;
-            track.margin = margin - tuning::ROUNDING;
-            self.marks[k] = odometers[k] + track.margin;
+            let moved = now.moved_since(&track.known, &Vector3::zeros(), track.reach);
+            self.marks[k] = odometers[k] + track.margin - moved;
         }
         if self.boxes.unchanged() {
             return NearChanges::default();

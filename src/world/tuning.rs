@@ -6,7 +6,7 @@ pub(super) const LENGTH_UNIT: f32 = 0.01;
 
 /// Time that a body's margin should last at its present speed against the carrier, s: the box of a fast body is widened
 /// more. Larger values give more pairs to watch, smaller ones more boxes to put in anew.
-pub(super) const HORIZON: f64 = 1e-2;
+pub(super) const HORIZON: f64 = 7e-3;
 
 /// Least and most margin of a body, as a share of its bounding radius. A smaller least one puts the boxes of a
 /// slow bed in anew more often.
