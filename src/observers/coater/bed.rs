@@ -128,7 +128,8 @@ impl Bed {
             return;
         }
         for (id, triangle) in (self.ids.id(body, 0)..).zip(&solid.triangles) {
-            canvas.raster.draw(triangle.map(|vertex| canvas.vertices[vertex as usize]), id, Sides::Front);
+            let corners = triangle.map(|vertex| &canvas.vertices[vertex as usize]);
+            canvas.raster.draw(corners, id, Sides::Front);
         }
         canvas.raster.settle(&area);
     }

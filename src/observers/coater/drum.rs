@@ -56,13 +56,13 @@ impl DrumMesh {
                 match corners.iter().filter(|corner| corner.z >= near).count() {
                     0 => {}
                     3 => {
-                        let corners = triangle.map(|vertex| vertices[vertex as usize]);
+                        let corners = triangle.map(|vertex| &vertices[vertex as usize]);
                         raster.draw(corners, first_id + number, Sides::Both);
                     }
                     _ => {
                         let cut: Vec<_> = beyond(near, corners).iter().map(on_screen).collect();
                         for k in 2..cut.len() {
-                            raster.draw([cut[0], cut[k - 1], cut[k]], first_id + number, Sides::Both);
+                            raster.draw([&cut[0], &cut[k - 1], &cut[k]], first_id + number, Sides::Both);
                         }
                     }
                 }

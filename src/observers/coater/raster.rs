@@ -115,7 +115,7 @@ impl IdRaster {
 
     /// Draws a triangle under the number `id`.
     #[inline]
-    pub(in crate::observers) fn draw(&mut self, vertices: [ScreenVertex; 3], id: u32, sides: Sides) {
+    pub(in crate::observers) fn draw(&mut self, vertices: [&ScreenVertex; 3], id: u32, sides: Sides) {
         let Some(triangle) = Triangle::new(vertices, sides) else { return };
         let Some(bounds) = triangle.bounds(self.last) else { return };
         if self.hides(&bounds, triangle.nearest()) {

@@ -77,13 +77,13 @@ impl ScreenVertex {
 impl Triangle {
     /// `None` when it is edge-on or shows its back.
     #[inline]
-    pub(super) fn new([a, b, c]: [ScreenVertex; 3], sides: Sides) -> Option<Self> {
+    pub(super) fn new([a, b, c]: [&ScreenVertex; 3], sides: Sides) -> Option<Self> {
         // What winds counter-clockwise for the viewer has a negative area where rows run downwards.
         let area = cross(a, b, c);
         if area == 0 || (area > 0 && sides == Sides::Front) {
             return None;
         }
-        let vertices = if area < 0 { [a, c, b] } else { [a, b, c] };
+        let vertices = if area < 0 { [*a, *c, *b] } else { [*a, *b, *c] };
         Some(Self {
             vertices,
             area: area.abs(),
@@ -174,7 +174,7 @@ impl LaneEdge {
 
 /// Twice the area of (a, b, c), grid steps squared, positive when they turn clockwise on the screen.
 #[inline]
-fn cross(a: ScreenVertex, b: ScreenVertex, c: ScreenVertex) -> i64 {
+fn cross(a: &ScreenVertex, b: &ScreenVertex, c: &ScreenVertex) -> i64 {
     let (bx, by) = (i64::from(b.x - a.x), i64::from(b.y - a.y));
     let (cx, cy) = (i64::from(c.x - a.x), i64::from(c.y - a.y));
     bx * cy - cx * by
