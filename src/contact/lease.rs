@@ -78,3 +78,44 @@ impl Lease {
         left > WORN * f64::from(self.allowance)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::UnitQuaternion;
+    use rand::{Rng, RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    fn within(random: &mut impl Rng, most: f64) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)) * (most / 3.0_f64.sqrt())
+    }
+
+    /// No point goes farther than the lease says, and the farthest may: a point about which nothing turns.
+    #[test]
+    fn what_is_left_covers_the_way_of_every_point() {
+        let random = &mut ChaCha8Rng::seed_from_u64(1);
+        let (lever, allowance) = (5e-3, 1e-3);
+        for k in 0..2000 {
+            let turn = UnitQuaternion::new(within(random, 3.0));
+            let at =
+                Relative { position: within(random, 0.3), rotation: turn.to_rotation_matrix().into_inner() };
+            let about = within(random, 5e-3).map(|x| x as f32);
+            let lease = Lease::new(&at, &about, lever, allowance);
+            // Every fourth turns not at all.
+            let turned = within(random, if k % 4 == 0 { 0.0 } else { 10f64.powi(-k % 7) });
+            let rotation = at.rotation * UnitQuaternion::new(turned).to_rotation_matrix().into_inner();
+            let about = about.map(f64::from);
+            let position = at.place(&about) - rotation * about + within(random, 10f64.powi(-3 - k % 5));
+            let now = Relative { position, rotation };
+            let gone = allowance - lease.left(&now);
+            for _ in 0..50 {
+                let point = about + within(random, lever);
+                let way = (now.place(&point) - at.place(&point)).norm();
+                assert!(way <= gone, "{way} of {gone}");
+            }
+            let way = (now.place(&about) - at.place(&about)).norm();
+            let turned = 2.0 * (0.5 * turned.norm()).sin().abs();
+            assert!(gone < way + turned * lever + 1e-7, "{gone} instead of {way}");
+        }
+    }
+}

@@ -167,6 +167,7 @@ impl WallList {
 
     /// Lists the candidates with a gap below the skin, and returns the lease of that: what is no candidate has a gap of `rest` at
     /// least, both in m. Springs of touching spheres stay; `memory` is where they are meanwhile.
+    #[inline(always)]
     fn list(
         &mut self,
         outline: &Outline,

@@ -128,3 +128,46 @@ impl Relative {
         self.position + self.rotation * point
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::UnitQuaternion;
+
+    fn rotation(turn: Vector3<f64>) -> Matrix3<f64> {
+        UnitQuaternion::new(turn).to_rotation_matrix().into_inner()
+    }
+
+    /// Seen from a turning drum, a body that flies straight on comes by the pose ahead, half-way through what it may go.
+    #[test]
+    fn a_pose_ahead_is_where_the_body_comes_by() {
+        let drum = Motion { spin: Vector3::new(0.0, 0.0, 2.3), ..Motion::at_rest() };
+        let body = Motion {
+            position: Vector3::new(0.08, -0.03, 0.01),
+            rotation: rotation(Vector3::new(0.3, -1.0, 0.7)),
+            velocity: Vector3::new(-0.4, -0.3, 0.1),
+            spin: Vector3::new(5.0, -3.0, 20.0),
+        };
+        let (now, course) = (body.seen_from(&drum), body.course_from(&drum));
+        let (reach, far) = (4e-3, 1e-3);
+        let speed = course.speed(&Vector3::zeros(), reach);
+        let ahead = now.ahead(&course, speed, far);
+        let way = ahead.moved_since(&now, &Vector3::zeros(), reach);
+        assert!((0.99 * AHEAD * far..=AHEAD * far).contains(&way), "{way}");
+
+        let time = AHEAD * far / speed;
+        let later = |motion: &Motion| Motion {
+            position: motion.position + motion.velocity * time,
+            rotation: rotation(motion.spin * time) * motion.rotation,
+            ..*motion
+        };
+        let there = later(&body).seen_from(&later(&drum));
+        assert_relative_eq!(ahead.rotation.tr_mul(&ahead.rotation), Matrix3::identity(), epsilon = 1e-14);
+        assert!(there.moved_since(&ahead, &Vector3::zeros(), reach) < 0.01 * far);
+
+        let slow = Course { velocity: course.velocity * 1e-6, spin: course.spin * 1e-6 };
+        let way = now.ahead(&slow, 1e-6 * speed, far).moved_since(&now, &Vector3::zeros(), reach);
+        assert!(way < 1.01e-6 * speed * FORESIGHT, "{way}");
+    }
+}
