@@ -248,8 +248,8 @@ impl ContactField {
                 let NearChanges { parted, met } = search();
                 groups.change(&parted, &met, motions.len(), |body| setting.outline(body as usize));
                 if let Some(poses) = poses {
-                    poses.clear();
-                    poses.extend(motions.iter().map(|motion| Pose::of(motion, grain)));
+                    poses.resize(motions.len(), Pose::default());
+                    poses.iter_mut().zip(motions).for_each(|(pose, motion)| pose.follow(motion, grain));
                 }
                 let poses = poses.as_deref();
                 groups.all.par_iter_mut().for_each(|group| {

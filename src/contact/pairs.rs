@@ -2,8 +2,11 @@
 //!
 //! Most of the bed turns as a solid, so neighbours hardly move against each other. A list holds the sphere pairs with a
 //! gap below a skin and stays complete until the bodies' *relative* motion has used the skin up. Tests of growing cost
-//! watch over that: the sum of both odometers (motion against the turning drum); the exact relative displacement since the
-//! list was made; a new list.
+//! watch over that: the sum of both odometers (motion against the turning drum); the exact relative displacement from the
+//! pose that the list was made for; a new list.
+//!
+//! That pose is one ahead, where the bodies are likely to be when half of the list's life is over: from there it bears motion
+//! both ways.
 //!
 //! A new list costs little because of the axis along which the bodies were nearest when the last one was made: spheres
 //! that stay behind by more than the skin along it cannot be near the other body, whatever the shapes.

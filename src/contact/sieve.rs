@@ -29,7 +29,7 @@ impl Grains {
 }
 
 /// Where a body is, as far as sieves ask.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(super) struct Pose {
     /// Grains.
@@ -39,13 +39,13 @@ pub(super) struct Pose {
 }
 
 impl Pose {
-    /// `grain` in m.
-    pub(super) fn of(motion: &Motion, grain: f64) -> Self {
-        let mut turn = [0.0; 9];
-        for (to, from) in turn.iter_mut().zip(motion.rotation.as_slice()) {
+    /// Where a body with this motion is, `grain` in m. Changed where it lies: a copy would wait for what it was put together from.
+    #[inline]
+    pub(super) fn follow(&mut self, motion: &Motion, grain: f64) {
+        self.position = motion.position * (1.0 / grain);
+        for (to, from) in self.turn.iter_mut().zip(motion.rotation.as_slice()) {
             *to = *from as f32;
         }
-        Self { position: motion.position * (1.0 / grain), turn }
     }
 }
 
@@ -176,7 +176,10 @@ mod tests {
             for &pair in &pairs {
                 let (way, reach) = between(&b, pair);
                 b.position += way * ((reach + grain * random.random_range(-9.0..9.0)) / way.norm() - 1.0);
-                let picked = sieve.passed(&Pose::of(&a, grain), &Pose::of(&b, grain));
+                let mut poses = [Pose::default(); 2];
+                poses[0].follow(&a, grain);
+                poses[1].follow(&b, grain);
+                let picked = sieve.passed(&poses[0], &poses[1]);
                 let picked = &picked.numbers[..picked.count];
                 for (k, &pair) in pairs.iter().enumerate() {
                     let (way, reach) = between(&b, pair);

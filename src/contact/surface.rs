@@ -142,8 +142,8 @@ impl Surface {
         if let Some((f, height)) = above {
             let normal = &all[f as usize].normal;
             if others >= SURELY * least {
-                let to = -height.signum();
-                return Nearest { distance: height.abs(), normal: normal * to, shared: &[] };
+                let normal = if height < 0.0 { *normal } else { -normal };
+                return Nearest { distance: height.abs(), normal, shared: &[] };
             }
             best = Some((f, normal * -height, &[][..]));
         }

@@ -117,15 +117,17 @@ fn find(found: &mut Vec<u32>, pairs: &[Pair], odometers: &[f64]) -> usize {
 /// any is looked at: they come from memory side by side then.
 #[inline(always)]
 fn worn(numbers: &mut [u32], pairs: &mut [Pair], leases: &mut Vec<Lease>, setting: &Setting<'_>) -> usize {
-    leases.clear();
-    for &k in &*numbers {
-        leases.push(pairs[k as usize].lease());
+    if leases.len() < numbers.len() {
+        leases.resize(numbers.len(), Lease::NONE);
+    }
+    for (at, &k) in numbers.iter().enumerate() {
+        leases[at] = pairs[k as usize].lease();
     }
     let mut count = 0;
-    for (at, lease) in leases.iter().enumerate() {
+    for at in 0..numbers.len() {
         let k = numbers[at];
         numbers[count] = k;
-        count += usize::from(!pairs[k as usize].holds(lease, setting));
+        count += usize::from(!pairs[k as usize].holds(&leases[at], setting));
     }
     count
 }
