@@ -110,7 +110,8 @@ impl Block {
         self.other[k] = place.other;
     }
 
-    /// Where and how the contacts touch, and the dashpots of each by itself.
+    /// Where and how the contacts touch, and the dashpots of each by itself. Law and rule come by value, and nothing branches: only so
+    /// does the compiler work out all lanes at once.
     #[inline(always)]
     pub(super) fn place(&mut self, law: PairLaw, rule: Rule) {
         for k in 0..LANES {

@@ -1,6 +1,6 @@
 //! How long a list of what is near stays complete.
 
-use crate::world::Relative;
+use crate::world::{Course, Relative};
 use nalgebra::{Matrix3, Vector3};
 
 /// What a list is good for: while the one body, seen from the other, is less than `allowance` away from the pose that the list
@@ -58,18 +58,14 @@ impl Lease {
         let turn = now.rotation - Matrix3::from_columns(&[x, y, x.cross(&y)]);
         // A turn by θ changes the rotation by 2√2 sin(θ/2), and no point at s from the axis goes farther than 2 sin(θ/2) s.
         let turned = (0.5 * turn.norm_squared()).sqrt();
-        let gone = now.place(&self.about()) - self.place.map(f64::from);
+        let gone = now.place(&self.about.map(f64::from)) - self.place.map(f64::from);
         f64::from(self.allowance) - gone.norm() - turned * f64::from(self.lever)
     }
 
-    /// m.
-    pub(super) fn about(&self) -> Vector3<f64> {
-        self.about.map(f64::from)
-    }
-
-    /// m.
-    pub(super) fn lever(&self) -> f64 {
-        f64::from(self.lever)
+    /// Most speed, m/s, at which the allowance is used up by a body that is at `now` on its `course`.
+    #[inline(always)]
+    pub(super) fn speed(&self, now: &Relative, course: &Course) -> f64 {
+        course.speed(&(now.rotation * self.about.map(f64::from)), f64::from(self.lever))
     }
 
     /// Whether a list with `left` m of its allowance goes on.

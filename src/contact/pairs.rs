@@ -129,12 +129,18 @@ impl Pair {
         self.list.lease
     }
 
-    /// Sees whether a list with this lease is still complete, and notes until when it surely is. False if it is worn.
+    /// b's pose in a's axes.
     #[inline(always)]
-    pub(super) fn holds(&mut self, lease: &Lease, setting: &Setting<'_>) -> bool {
-        let (a, b) = (self.a as usize, self.b as usize);
-        let left = lease.left(&setting.motions[b].seen_from(&setting.motions[a]));
-        self.mark = setting.odometers[a] + setting.odometers[b] + left;
+    pub(super) fn pose(&self, motions: &[Motion]) -> Relative {
+        motions[self.b as usize].seen_from(&motions[self.a as usize])
+    }
+
+    /// Sees whether a list with this lease is still complete with b `at` a pose in a's axes, and notes until when it surely is.
+    /// False if it is worn.
+    #[inline(always)]
+    pub(super) fn holds(&mut self, lease: &Lease, at: &Relative, odometers: &[f64]) -> bool {
+        let left = lease.left(at);
+        self.mark = odometers[self.a as usize] + odometers[self.b as usize] + left;
         lease.holds(left)
     }
 
@@ -146,17 +152,16 @@ impl Pair {
         scratch: &mut Scratch,
         (links, cursor): (&mut Links, &mut Cursor),
     ) {
+        let Setting { motions, odometers, .. } = *setting;
         let (a, b) = (self.a as usize, self.b as usize);
-        let (ma, mb) = (&setting.motions[a], &setting.motions[b]);
         let outlines = [setting.outline(a), setting.outline(b)];
-        let (at, course) = (mb.seen_from(ma), mb.course_from(ma));
-        let former = self.lease();
-        let speed = course.speed(&(at.rotation * former.about()), former.lever());
+        let (at, course) = (self.pose(motions), motions[b].course_from(&motions[a]));
+        let speed = self.list.lease.speed(&at, &course);
         let skin = skin(setting, speed);
         self.list.make(outlines, at.ahead(&course, speed, skin), skin, scratch);
-        if !self.holds(&self.lease(), setting) {
+        if !self.holds(&self.lease(), &at, odometers) {
             self.list.make(outlines, at, skin, scratch);
-            self.holds(&self.lease(), setting);
+            self.holds(&self.lease(), &at, odometers);
         }
         links.replace(cursor, self.key(), outlines, &scratch.spheres, &mut scratch.links);
     }

@@ -127,7 +127,9 @@ fn worn(numbers: &mut [u32], pairs: &mut [Pair], leases: &mut Vec<Lease>, settin
     for at in 0..numbers.len() {
         let k = numbers[at];
         numbers[count] = k;
-        count += usize::from(!pairs[k as usize].holds(&leases[at], setting));
+        let pair = &mut pairs[k as usize];
+        let pose = pair.pose(setting.motions);
+        count += usize::from(!pair.holds(&leases[at], &pose, setting.odometers));
     }
     count
 }

@@ -178,7 +178,7 @@ impl World {
             }
             let (motion, track) = (&motions[k], &mut self.tracks[k]);
             let now = motion.seen_from(carrier);
-            let moved = now.moved_since(&track.known, &Vector3::zeros(), track.reach);
+            let moved = now.moved_since(&track.known, track.reach);
             if moved < tuning::SPENT * track.margin {
                 self.marks[k] = odometers[k] + track.margin - moved;
                 continue;
@@ -194,7 +194,7 @@ impl World {
             self.bodies[*body].set_position(pose, false);
             let bounds = self.colliders[*collider].shape().compute_aabb(&pose).loosened(margin as f32);
             self.boxes.put(k as u32, bounds);
-            let moved = now.moved_since(&track.known, &Vector3::zeros(), track.reach);
+            let moved = now.moved_since(&track.known, track.reach);
             self.marks[k] = odometers[k] + track.margin - moved;
         }
         if self.boxes.unchanged() {

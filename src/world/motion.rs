@@ -91,13 +91,12 @@ impl Relative {
         rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
     };
 
-    /// Most that a point of the one body within `lever` of its point `about` (its own axes, m) can be away from where it
-    /// was `then`, m.
+    /// Most that a point of the one body within `reach`, m, of its centre of mass can be away from where it was `then`, m.
     #[inline]
-    pub fn moved_since(&self, then: &Self, about: &Vector3<f64>, lever: f64) -> f64 {
+    pub fn moved_since(&self, then: &Self, reach: f64) -> f64 {
         // |Q s − Q₀ s| ≤ 2 sin(θ/2) |s|, and 3 − tr(Q₀ᵀ Q) = 4 sin²(θ/2).
         let turned = (3.0 - then.rotation.dot(&self.rotation)).max(0.0).sqrt();
-        (self.place(about) - then.place(about)).norm() + turned * lever
+        (self.position - then.position).norm() + turned * reach
     }
 
     /// Where the one body is likely to be half-way through the time in which it goes `far`, m, on its `course`, its fastest point
@@ -153,7 +152,7 @@ mod tests {
         let (reach, far) = (4e-3, 1e-3);
         let speed = course.speed(&Vector3::zeros(), reach);
         let ahead = now.ahead(&course, speed, far);
-        let way = ahead.moved_since(&now, &Vector3::zeros(), reach);
+        let way = ahead.moved_since(&now, reach);
         assert!((0.99 * AHEAD * far..=AHEAD * far).contains(&way), "{way}");
 
         let time = AHEAD * far / speed;
@@ -164,10 +163,10 @@ mod tests {
         };
         let there = later(&body).seen_from(&later(&drum));
         assert_relative_eq!(ahead.rotation.tr_mul(&ahead.rotation), Matrix3::identity(), epsilon = 1e-14);
-        assert!(there.moved_since(&ahead, &Vector3::zeros(), reach) < 0.01 * far);
+        assert!(there.moved_since(&ahead, reach) < 0.01 * far);
 
         let slow = Course { velocity: course.velocity * 1e-6, spin: course.spin * 1e-6 };
-        let way = now.ahead(&slow, 1e-6 * speed, far).moved_since(&now, &Vector3::zeros(), reach);
+        let way = now.ahead(&slow, 1e-6 * speed, far).moved_since(&now, reach);
         assert!(way < 1.01e-6 * speed * FORESIGHT, "{way}");
     }
 }
