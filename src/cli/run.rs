@@ -156,6 +156,7 @@ impl Session {
         let stiff = simulation.stiff_share();
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
         self.record.guards.too_stiff_percent = 100.0 * stiff;
+        self.record.guards.divided_steps_percent = 100.0 * simulation.divided_share();
         self.record.guards.energy = simulation.energy().as_ref().map(audit);
         self.record.warnings = guards::warnings(simulation.scene().contact.mode, step, overlap, stiff)
             .iter()

@@ -117,6 +117,9 @@ pub struct Guards {
     /// Share of bodies and steps in which a body was held stiffer than the step bears, so that its forces were lowered, %.
     #[serde(default)]
     pub too_stiff_percent: f64,
+    /// Share of the steps that were taken in pieces, because a body was too fast for a whole one, %.
+    #[serde(default)]
+    pub divided_steps_percent: f64,
     /// Where energy is and where it went over the coated time, if the scene asks for the audit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyAudit>,

@@ -43,6 +43,12 @@ impl Clump {
         self.spheres.iter().map(|s| s.center.norm()).fold(0.0, f64::max)
     }
 
+    /// Largest distance of a sphere's centre from each of the axes through the centre of mass, m.
+    pub fn arms(&self) -> Vector3<f64> {
+        let arms = |s: &Sphere| Vector3::from_fn(|k, _| s.center.remove_row(k).norm());
+        self.spheres.iter().map(arms).fold(Vector3::zeros(), |most, arms| most.sup(&arms))
+    }
+
     /// Radius of the smallest sphere, m.
     pub fn smallest_radius(&self) -> f64 {
         self.spheres.iter().map(|s| s.radius).fold(f64::INFINITY, f64::min)

@@ -22,16 +22,18 @@ pub(super) struct Body {
     pub momentum: Vector3<f64>,
     /// Largest distance of a sphere's centre from the centre of mass, m.
     pub reach: f64,
-    /// Farthest that any sphere's centre may move in a step, m.
-    pub most_travel: f64,
+    /// Largest distance of a sphere's centre from each principal axis, m.
+    pub arms: Vector3<f64>,
+    /// Of the farthest that any sphere's centre may move in a step, 1/m.
+    pub inverse_travel: f64,
 }
 
 impl Body {
-    /// Second half of a step's kick.
+    /// A kick of some time, s.
     #[inline]
-    pub(super) fn kick(&mut self, wrench: &Wrench, half_step: f64) {
-        self.velocity += wrench.force * (half_step * self.inverse_mass);
-        self.momentum += wrench.torque * half_step;
+    pub(super) fn kick(&mut self, wrench: &Wrench, time: f64) {
+        self.velocity += wrench.force * (time * self.inverse_mass);
+        self.momentum += wrench.torque * time;
     }
 
     /// Angular velocity at `rotation`, world axes, rad/s.

@@ -33,8 +33,8 @@ pub(super) struct Drift<'a> {
 pub(super) struct Stride {
     /// Step, s.
     pub dt: f64,
-    /// Half kicks: 2 with the one that ends the last step, else 1.
-    pub kicks: u32,
+    /// How long the kick that ends the last step takes, if it is still to be made, s.
+    pub owed: f64,
     /// m/s².
     pub gravity: Vector3<f64>,
     /// Angular velocity of the carrier, rad/s.
@@ -51,7 +51,8 @@ struct Eight {
     velocity: Lanes3,
     momentum: Lanes3,
     reach: Lanes,
-    most_travel: Lanes,
+    arms: Lanes3,
+    inverse_travel: Lanes,
     force: Lanes3,
     torque: Lanes3,
     /// Columns of the rotation matrix.
@@ -63,8 +64,8 @@ struct Eight {
     /// The same over the step, world axes, rad/s.
     spin: Lanes3,
     path: Lanes,
-    /// 1 for a body that goes too far in the step or is nowhere, else 0.
-    astray: Lanes,
+    /// How far the bodies of a lane went at most so far, of what they may; infinite if that is no number.
+    haste: Lanes,
 }
 
 #[inline(always)]
@@ -88,25 +89,23 @@ fn set_four(lanes: &mut [Lanes; 4], k: usize, q: (f64, f64, f64, f64)) {
 }
 
 impl pulp::NullaryFnOnce for Drift<'_> {
-    /// Whether a body goes astray: moves farther in a step than it may, or is nowhere.
-    type Output = bool;
+    /// How far the body that moves most goes in the step, of what it may: above 1 one goes astray.
+    type Output = f64;
 
     #[inline(always)]
-    fn call(self) -> bool {
+    fn call(self) -> f64 {
         let Self { bodies, motions, wrenches, odometers, stride } = self;
-        let Stride { dt, kicks, gravity, carrier } = stride;
+        let Stride { dt, owed, gravity, carrier } = stride;
         let bodies = bodies.chunks_mut(LANES).zip(motions.chunks_mut(LANES));
         let eights = bodies.zip(wrenches.chunks_mut(LANES)).zip(odometers.chunks_mut(LANES));
         let mut eight = Eight::default();
-        let mut astray = 0.0;
         for (((bodies, motions), wrenches), odometers) in eights {
             eight.read(bodies, motions, wrenches);
             for (wrench, body) in wrenches.iter_mut().zip(&*bodies) {
                 *wrench = Wrench::weight(&gravity, body.mass);
             }
-            for _ in 0..kicks {
-                eight.kick(0.5 * dt);
-            }
+            eight.kick(owed);
+            eight.kick(0.5 * dt);
             eight.find_turn(&carrier, dt);
             eight.mend_large_turns();
             eight.arrive();
@@ -114,9 +113,8 @@ impl pulp::NullaryFnOnce for Drift<'_> {
                 eight.write(k, body, motion);
                 *odometer += SAFETY * eight.path[k];
             }
-            astray += eight.astray.iter().sum::<f64>();
         }
-        astray > 0.0
+        eight.haste.into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -134,7 +132,8 @@ impl Eight {
             set(&mut self.velocity, k, &body.velocity);
             set(&mut self.momentum, k, &body.momentum);
             self.reach[k] = body.reach;
-            self.most_travel[k] = body.most_travel;
+            set(&mut self.arms, k, &body.arms);
+            self.inverse_travel[k] = body.inverse_travel;
             set(&mut self.force, k, &wrench.force);
             set(&mut self.torque, k, &wrench.torque);
         }
@@ -170,8 +169,10 @@ impl Eight {
             set(&mut self.spin, k, &spin);
             set(&mut self.turn, k, &turn);
             self.path[k] = moved.norm() + (spin - carrier).norm() * dt * self.reach[k];
-            let travel = travel(&velocity, &spin, self.reach[k], dt);
-            self.astray[k] = if travel <= self.most_travel[k] { 0.0 } else { 1.0 };
+            let travel = travel(&(velocity * dt), &turn, self.reach[k], &get(&self.arms, k));
+            let haste = travel * self.inverse_travel[k];
+            let haste = if haste.is_nan() { f64::INFINITY } else { haste };
+            self.haste[k] = if haste > self.haste[k] { haste } else { self.haste[k] };
 
             // By series, so that no library sine enters: truncation below h¹⁰/10! < 3e-17 for half angles h < 0.1.
             let h2 = 0.25 * turn.norm_squared();
@@ -236,10 +237,11 @@ impl Eight {
     }
 }
 
-/// Most that a point within `reach`, m, of the centre of mass moves in a step of `dt`, s, in m.
+/// Most that a point moves that is within `reach`, m, of the centre of mass and within `arms`, m, of the principal axes, m: its
+/// body goes a `way`, m, and makes a `turn`, body axes, rad.
 #[inline(always)]
-pub(super) fn travel(velocity: &Vector3<f64>, spin: &Vector3<f64>, reach: f64, dt: f64) -> f64 {
-    (velocity.norm() + spin.norm() * reach) * dt
+pub(super) fn travel(way: &Vector3<f64>, turn: &Vector3<f64>, reach: f64, arms: &Vector3<f64>) -> f64 {
+    way.norm() + (turn.norm() * reach).min(turn.abs().dot(arms))
 }
 
 /// Columns of the rotation matrix of a unit quaternion.

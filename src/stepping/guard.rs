@@ -28,23 +28,24 @@ impl Simulation {
     }
 
     /// Overlap, travel and NaN, at every step.
-    pub(super) fn guard_step(&self) -> Result<(), SimulationError> {
-        let (step, time, dt) = (self.step, self.clock(), self.time_step.step);
+    pub(super) fn guard_step(&self, dt: f64) -> Result<(), SimulationError> {
+        let (step, time) = (self.step, self.clock());
         if self.tally.deepest > MOST_OVERLAP
             && let Some((body, partner)) = self.deepest_contact()
         {
             return Err(SimulationError::Overlap { body, partner, step, time, ratio: self.tally.deepest });
         }
-        if self.astray {
-            let travels = self.bodies.iter().zip(&self.motions).map(|(body, motion)| {
-                (travel(&motion.velocity, &motion.spin, body.reach, dt), body.most_travel)
+        if self.haste > 1.0 {
+            let ratios = self.bodies.iter().zip(&self.motions).map(|(body, motion)| {
+                let turn = motion.rotation.tr_mul(&motion.spin) * dt;
+                travel(&(motion.velocity * dt), &turn, body.reach, &body.arms) * body.inverse_travel
             });
-            let astray = travels.enumerate().find(|(_, (travel, most))| travel.is_nan() || travel > most);
-            if let Some((body, (travel, most))) = astray {
+            let astray = ratios.enumerate().find(|(_, ratio)| ratio.is_nan() || *ratio > 1.0);
+            if let Some((body, ratio)) = astray {
                 let body = self.number(body);
                 let contact = DeepestContact(self.deepest_contact());
-                let ratio = MOST_TRAVEL * travel / most;
-                return Err(if travel.is_finite() {
+                let ratio = MOST_TRAVEL * ratio;
+                return Err(if ratio.is_finite() {
                     SimulationError::TooFast { body, step, time, ratio, contact }
                 } else {
                     SimulationError::NotFinite { body, step, time, contact }

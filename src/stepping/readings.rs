@@ -11,7 +11,7 @@ use crate::shapes::{SurfaceMesh, TabletShape};
 impl Simulation {
     /// Simulated time since the start, s.
     pub fn clock(&self) -> f64 {
-        self.step as f64 * self.time_step.step
+        (self.step as f64 + self.part) * self.time_step.step
     }
 
     /// Steps taken since the start.
@@ -66,7 +66,12 @@ impl Simulation {
 
     /// Share of bodies and steps so far in which a body was held stiffer than the step bears and its forces were lowered.
     pub fn stiff_share(&self) -> f64 {
-        self.stiff as f64 / (self.step * self.bodies.len() as u64).max(1) as f64
+        self.stiff / (self.step * self.bodies.len() as u64).max(1) as f64
+    }
+
+    /// Share of the steps so far that were taken in pieces, because a body was fast.
+    pub fn divided_share(&self) -> f64 {
+        self.divided as f64 / self.step.max(1) as f64
     }
 
     /// Where the run time went.
@@ -81,7 +86,7 @@ impl Simulation {
 
     /// Mean torque of the drive over the last frame, N m.
     pub fn drum_torque(&self) -> f64 {
-        if self.torque_steps == 0 { 0.0 } else { self.torque_sum / self.torque_steps as f64 }
+        if self.torque_time == 0.0 { 0.0 } else { self.torque_sum / self.torque_time }
     }
 
     /// Pose and motion of all bodies at the present step.

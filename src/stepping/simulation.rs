@@ -21,6 +21,11 @@ use std::time::{Duration, Instant};
 
 /// Bodies that one thread moves at a time.
 const CHUNK: usize = 128;
+/// A step is divided where the fastest body would go farther than this share of what it may: less than all of it, as it may be pushed
+/// on the way.
+const HASTY: f64 = 0.75;
+/// Pieces of a step at most.
+const MOST_PIECES: f64 = 8.0;
 
 /// A run: bodies, surfaces, contacts and the clock.
 #[derive(Clone)]
@@ -32,6 +37,8 @@ pub struct Simulation {
     pub(super) repairs: Vec<String>,
     pub(super) time_step: TimeStep,
     pub(super) step: u64,
+    /// What is done of the step after these, if it is taken in pieces.
+    pub(super) part: f64,
     pub(super) world: World,
     pub(super) field: ContactField,
     /// What moves bodies and solves contacts in place of `world` and `field`, if the scene says so.
@@ -48,18 +55,20 @@ pub struct Simulation {
     /// Velocity and spin of each surface.
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
     pub(super) wrenches: Vec<Wrench>,
-    /// Whether the second half of the last step's kick is still to be made.
-    owing: bool,
+    /// How long the kick that ends the last step takes, if it is still to be made, s.
+    owed: f64,
     /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
     pub(super) odometers: Vec<f64>,
-    /// Whether some body moves farther in a step than it may, or is nowhere.
-    pub(super) astray: bool,
+    /// How far the fastest body went in a whole step by its last motion, of what it may.
+    pub(super) haste: f64,
+    /// Steps that were taken in pieces.
+    pub(super) divided: u64,
     pub(super) rng: ChaCha8Rng,
     pub(super) torque_sum: f64,
-    pub(super) torque_steps: u64,
+    pub(super) torque_time: f64,
     pub(super) deepest: f64,
     /// Bodies that were stiffer than the step bears, summed over all steps.
-    pub(super) stiff: u64,
+    pub(super) stiff: f64,
     pub(super) audit: Option<EnergyAudit>,
     pub(super) tally: Tally,
     /// Time, s, and bodies of the last frame that passed all guards.
@@ -91,6 +100,7 @@ impl Simulation {
             scene: scene.clone(),
             shapes,
             step: 0,
+            part: 0.0,
             world: World::new(),
             impulses: match scene.contact.mode {
                 ContactMode::HertzMindlin => None,
@@ -104,14 +114,15 @@ impl Simulation {
             meshes: 0,
             drives: Vec::new(),
             wrenches: Vec::new(),
-            owing: false,
+            owed: 0.0,
             odometers: Vec::new(),
-            astray: false,
+            haste: 0.0,
+            divided: 0,
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
             torque_sum: 0.0,
-            torque_steps: 0,
+            torque_time: 0.0,
             deepest: 0.0,
-            stiff: 0,
+            stiff: 0.0,
             tally: Tally::default(),
             audit: None,
             good: (0.0, Vec::new()),
@@ -205,7 +216,8 @@ impl Simulation {
             velocity: state.velocity,
             momentum,
             reach: clump.reach(),
-            most_travel: MOST_TRAVEL * clump.smallest_radius(),
+            arms: clump.arms(),
+            inverse_travel: 1.0 / (MOST_TRAVEL * clump.smallest_radius()),
         });
         self.numbers.push(self.kinds.len() as u32);
         self.kinds.push(shape);
@@ -214,18 +226,30 @@ impl Simulation {
         self.wrenches.push(Wrench::weight(&self.scene.gravity, mass));
     }
 
-    /// One time step: kick, drift, forces at the new time level, kick. The last is made together with the first of the next
-    /// step where nobody looks at the bodies in between.
+    /// One time step, in as many pieces as the fastest body asks for.
     fn advance(&mut self) -> Result<(), SimulationError> {
-        let dt = self.time_step.step;
         if self.impulses.is_some() {
-            self.advance_by_impulses(dt);
+            self.advance_by_impulses();
             return Ok(());
         }
+        let pieces = (self.haste / HASTY).ceil().clamp(1.0, MOST_PIECES);
+        self.divided += u64::from(pieces > 1.0);
+        for piece in 1..pieces as u64 {
+            self.part = piece as f64 / pieces;
+            self.advance_piece(1.0 / pieces)?;
+        }
+        (self.step, self.part) = (self.step + 1, 0.0);
+        self.advance_piece(1.0 / pieces)
+    }
+
+    /// Some share of a time step: kick, drift, forces at the new time level, kick. The last is made together with the first of the
+    /// next one where nobody looks at the bodies in between.
+    fn advance_piece(&mut self, share: f64) -> Result<(), SimulationError> {
+        let dt = share * self.time_step.step;
         self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
         self.feel(dt);
-        self.owing = true;
+        self.owed = 0.5 * dt;
         if self.audit.is_some() {
             self.kick();
         }
@@ -233,16 +257,17 @@ impl Simulation {
             let bodies = (&self.bodies[..], &self.motions[..]);
             audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
         }
-        self.note_step();
-        self.guard_step()
+        self.note_forces(dt);
+        self.guard_step(dt)?;
+        self.haste /= share;
+        Ok(())
     }
 
     /// Brings velocities to the time of the places.
     fn kick(&mut self) {
-        if std::mem::take(&mut self.owing) {
-            for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
-                body.kick(wrench, 0.5 * self.time_step.step);
-            }
+        let owed = std::mem::take(&mut self.owed);
+        for (body, wrench) in self.bodies.iter_mut().zip(&self.wrenches) {
+            body.kick(wrench, owed);
         }
     }
 
@@ -263,29 +288,29 @@ impl Simulation {
         self.stopwatch.split(Phase::Contact, Phase::Search, searching);
     }
 
-    fn advance_by_impulses(&mut self, dt: f64) {
+    fn advance_by_impulses(&mut self) {
+        let dt = self.time_step.step;
         self.step += 1;
         self.move_surfaces();
         if let Some(world) = &mut self.impulses {
             let (bodies, motions) = (&mut self.bodies, &mut self.motions);
-            self.torque_sum += impulse::step(world, &self.surfaces, bodies, motions, &self.scene.gravity, dt);
-            self.torque_steps += 1;
+            self.torque_sum +=
+                dt * impulse::step(world, &self.surfaces, bodies, motions, &self.scene.gravity, dt);
+            self.torque_time += dt;
         }
         self.stopwatch.lap(Phase::Contact);
     }
 
     fn drift(&mut self, dt: f64) {
-        let kicks = if std::mem::take(&mut self.owing) { 2 } else { 1 };
-        let stride = Stride { dt, kicks, gravity: self.scene.gravity, carrier: self.carrier().spin };
+        let owed = std::mem::take(&mut self.owed);
+        let stride = Stride { dt, owed, gravity: self.scene.gravity, carrier: self.carrier().spin };
         let (wrenches, odometers) =
             (self.wrenches.par_chunks_mut(CHUNK), self.odometers.par_chunks_mut(CHUNK));
         let bodies = self.bodies.par_chunks_mut(CHUNK).zip(self.motions.par_chunks_mut(CHUNK));
         let drift = |(((bodies, motions), wrenches), odometers)| {
             pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, odometers, stride })
         };
-        self.astray =
-            bodies.zip(wrenches).zip(odometers).map(drift).reduce(|| false, |one, other| one | other);
-        self.step += 1;
+        self.haste = bodies.zip(wrenches).zip(odometers).map(drift).reduce(|| 0.0, f64::max);
         self.move_surfaces();
     }
 
@@ -302,19 +327,19 @@ impl Simulation {
         }
     }
 
-    fn note_step(&mut self) {
+    fn note_forces(&mut self, dt: f64) {
         if self.scene.drum.is_some() {
-            self.torque_sum -= self.field.surface_torque(0).z;
+            self.torque_sum -= dt * self.field.surface_torque(0).z;
         }
-        self.torque_steps += 1;
+        self.torque_time += dt;
         self.deepest = self.deepest.max(self.tally.deepest);
-        self.stiff += u64::from(self.tally.stiff);
+        self.stiff += f64::from(self.tally.stiff) * dt / self.time_step.step;
     }
 
     /// Advances by one frame interval.
     pub(super) fn advance_frame(&mut self) -> Result<(), SimulationError> {
         self.torque_sum = 0.0;
-        self.torque_steps = 0;
+        self.torque_time = 0.0;
         // All steps inside the pool: handing work to it from outside costs more than a step does.
         rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
         self.kick();
