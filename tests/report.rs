@@ -237,6 +237,20 @@ fn an_empty_run_still_makes_a_page() {
     assert!(page.contains("Nothing was coated") && !page.contains("data-chart=\""));
 }
 
+/// As after short runs: nothing else in the chart could be told apart beside it.
+#[test]
+fn an_interval_that_reaches_zero_does_not_stretch_the_chart() {
+    let mut data = sample();
+    data.shapes[0].limit.as_mut().unwrap().low = 0.0;
+    let page = page(&data);
+    let range = page.split("\"range\":[").nth(1).and_then(|rest| rest.split(']').next()).unwrap();
+    let (low, high) = range.split_once(',').unwrap();
+    let inter = data.series.last().unwrap().cov_inter;
+    assert!(inter < 0.19, "the least that is drawn");
+    assert!((low.parse::<f64>().unwrap() - inter.log10()).abs() < 0.3, "{range}");
+    assert!(high.parse::<f64>().unwrap() > data.series[0].cov_intra.log10(), "{range}");
+}
+
 #[test]
 #[ignore = "writes the sample page into the folder PAGE_DIR, to look at"]
 fn write_the_sample_page() {

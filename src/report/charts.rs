@@ -73,8 +73,22 @@ pub(super) fn uniformity(data: &ReportData) -> Plot {
         let line = Line::new().color(ink::GUIDE).width(1.0).dash(DashType::Dot);
         plot.add_trace(curve(times, guide, "time to the power −1/2", line));
     }
-    plot.set_layout(log_log("coated time, s", "coefficient of variation"));
+    let mut layout = log_log("coated time, s", "coefficient of variation");
+    if let Some(range) = range(data) {
+        layout = layout.y_axis(log_axis("coefficient of variation").range(range));
+    }
+    plot.set_layout(layout);
     plot
+}
+
+/// Powers of ten between which all that was measured and the limits lie. An interval of a limit that reaches far down, as in short
+/// runs, runs off the chart.
+fn range(data: &ReportData) -> Option<Vec<f64>> {
+    let measured = data.series.iter().flat_map(|r| [r.cov_intra, r.cov_intra_average_tablet, r.cov_inter]);
+    let limits = data.shapes.iter().filter_map(|shape| Some(shape.limit.as_ref()?.value));
+    let shown = measured.chain(limits).filter(|value| *value > 0.0).map(f64::log10);
+    let ends = shown.map(|value| (value - 0.2, value + 0.2));
+    ends.reduce(|(low, high), (l, h)| (low.min(l), high.max(h))).map(|(low, high)| vec![low, high])
 }
 
 /// The four averages of the appendix over time.
@@ -132,23 +146,9 @@ fn skip() -> plotly::common::HoverInfo {
 }
 
 fn log_log(x: &str, y: &str) -> Layout {
-    // 1, 2 and 5 of every decade that a run may show.
-    let ticks: Vec<f64> =
-        (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(decade))).collect();
-    let labels: Vec<String> = ticks.iter().map(|&tick| significant(tick, 1)).collect();
-    let axis = |title: &str| {
-        Axis::new()
-            .title(Title::with_text(title))
-            .type_(AxisType::Log)
-            .grid_color(ink::GRID)
-            .line_color(ink::GUIDE)
-            .tick_values(ticks.clone())
-            .tick_text(labels.clone())
-            .zero_line(false)
-    };
     Layout::new()
-        .x_axis(axis(x))
-        .y_axis(axis(y))
+        .x_axis(log_axis(x))
+        .y_axis(log_axis(y))
         .height(460)
         .hover_mode(HoverMode::X)
         .font(Font::new().family("system-ui, sans-serif").size(13).color(ink::TEXT))
@@ -156,4 +156,19 @@ fn log_log(x: &str, y: &str) -> Layout {
         .plot_background_color("#ffffff")
         .legend(Legend::new().x(0.01).y(-0.18).orientation(plotly::common::Orientation::Horizontal))
         .margin(Margin::new().left(64).right(16).top(12).bottom(48))
+}
+
+fn log_axis(title: &str) -> Axis {
+    // 1, 2 and 5 of every decade that a run may show.
+    let ticks: Vec<f64> =
+        (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(decade))).collect();
+    let labels = ticks.iter().map(|&tick| significant(tick, 1)).collect();
+    Axis::new()
+        .title(Title::with_text(title))
+        .type_(AxisType::Log)
+        .grid_color(ink::GRID)
+        .line_color(ink::GUIDE)
+        .tick_values(ticks)
+        .tick_text(labels)
+        .zero_line(false)
 }
