@@ -20,7 +20,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), Failure> {
         print_line(&format!("{name:<20}{text}"))?;
     }
     guards::refuse(&scene, shapes, step)?;
-    for warning in guards::warnings(scene.contact.mode, step, step.impact_overlap, 0.0) {
+    for warning in guards::warnings(scene.contact.mode, step, step.impact_overlap, 0.0, 0) {
         print_line(&format!("{:<20}{warning}", "warning"))?;
     }
     for repair in simulation.repairs() {

@@ -67,6 +67,10 @@ pub(super) enum Warning {
         100.0 * .0
     )]
     OftenStiff(f64),
+    #[error(
+        "{0} frames went wrong and were repeated in finer steps: lower time.step to see whether results change"
+    )]
+    Repeated(u64),
 }
 
 /// Refuses what memory cannot hold, and a step that cannot be stable. Impulses have no contacts to resolve.
@@ -107,9 +111,15 @@ fn simulated_time(scene: &Scene) -> f64 {
     settle + scene.time.duration
 }
 
-/// Warnings of a step, of the largest overlap over radius, expected or met, and of the share of bodies and steps in which a body
-/// was stiffer than the step bears; none with impulses.
-pub(super) fn warnings(mode: ContactMode, step: &TimeStep, overlap: f64, stiff: f64) -> Vec<Warning> {
+/// Warnings of a step, of the largest overlap over radius, expected or met, of the share of bodies and steps in which a body was
+/// stiffer than the step bears, and of how many frames were repeated; none with impulses.
+pub(super) fn warnings(
+    mode: ContactMode,
+    step: &TimeStep,
+    overlap: f64,
+    stiff: f64,
+    repeated: u64,
+) -> Vec<Warning> {
     if mode != ContactMode::HertzMindlin {
         return Vec::new();
     }
@@ -117,7 +127,8 @@ pub(super) fn warnings(mode: ContactMode, step: &TimeStep, overlap: f64, stiff: 
     let few = (steps < FEW_STEPS).then_some(Warning::FewSteps(steps));
     let large = (overlap > LARGE_OVERLAP).then_some(Warning::LargeOverlap(overlap));
     let stiff = (stiff > OFTEN_STIFF).then_some(Warning::OftenStiff(stiff));
-    [few, large, stiff].into_iter().flatten().collect()
+    let repeated = (repeated > 0).then_some(Warning::Repeated(repeated));
+    [few, large, stiff, repeated].into_iter().flatten().collect()
 }
 
 #[cfg(test)]
@@ -133,14 +144,16 @@ mod tests {
             impact_overlap: 0.0,
             stiffest: 0.0,
         };
-        assert!(warnings(ContactMode::HertzMindlin, &step(30.0), 0.02, 0.0).is_empty());
+        assert!(warnings(ContactMode::HertzMindlin, &step(30.0), 0.02, 0.0, 0).is_empty());
         assert!(matches!(
-            warnings(ContactMode::HertzMindlin, &step(11.0), 0.02, 0.0)[..],
+            warnings(ContactMode::HertzMindlin, &step(11.0), 0.02, 0.0, 0)[..],
             [Warning::FewSteps(_)]
         ));
-        let told = warnings(ContactMode::HertzMindlin, &step(30.0), 0.21, 0.0)[0].to_string();
+        let told = warnings(ContactMode::HertzMindlin, &step(30.0), 0.21, 0.0, 0)[0].to_string();
         assert!(told.starts_with("overlaps reach 21 % of a sphere's radius"), "{told}");
-        let told = warnings(ContactMode::HertzMindlin, &step(30.0), 0.02, 0.012)[0].to_string();
+        let told = warnings(ContactMode::HertzMindlin, &step(30.0), 0.02, 0.0, 2)[0].to_string();
+        assert!(told.starts_with("2 frames went wrong"), "{told}");
+        let told = warnings(ContactMode::HertzMindlin, &step(30.0), 0.02, 0.012, 0)[0].to_string();
         assert!(told.starts_with("in 1.2 % of all steps"), "{told}");
 
         let text = crate::scene::SceneText::embedded("sphere", &[]).unwrap();

@@ -157,11 +157,14 @@ impl Session {
         self.record.guards.largest_overlap_percent = 100.0 * overlap;
         self.record.guards.too_stiff_percent = 100.0 * stiff;
         self.record.guards.divided_steps_percent = 100.0 * simulation.divided_share();
+        let repeated = simulation.repeated_frames();
+        self.record.guards.repeated_frames = repeated;
         self.record.guards.energy = simulation.energy().as_ref().map(audit);
-        self.record.warnings = guards::warnings(simulation.scene().contact.mode, step, overlap, stiff)
-            .iter()
-            .map(ToString::to_string)
-            .collect();
+        self.record.warnings =
+            guards::warnings(simulation.scene().contact.mode, step, overlap, stiff, repeated)
+                .iter()
+                .map(ToString::to_string)
+                .collect();
         self.record
             .warnings
             .extend(simulation.repairs().iter().map(|repair| format!("mesh repaired: {repair}")));

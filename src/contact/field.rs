@@ -74,6 +74,14 @@ pub struct Tally {
     pub stiff: u32,
 }
 
+/// What of all contacts lasts from one step to the next.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    touching: Vec<Grasp>,
+    loads: Vec<Load>,
+    walls: (Vec<WallWatch>, Vec<WallList>),
+}
+
 /// Every body, surface, list and spring.
 #[derive(Clone)]
 pub struct ContactField {
@@ -175,6 +183,22 @@ impl ContactField {
         let mut walls: Vec<_> = self.wall_watches.drain(..).zip(self.walls.drain(..)).collect();
         walls.sort_unstable_by_key(|(watch, _)| watch.key());
         (self.wall_watches, self.walls) = walls.into_iter().unzip();
+    }
+
+    /// What lasts from step to step, to [`ContactField::restore`] it: the rest can be made anew.
+    pub fn keep(&self) -> Kept {
+        Kept {
+            touching: self.groups.touching().collect(),
+            loads: self.loads.clone(),
+            walls: (self.wall_watches.clone(), self.walls.clone()),
+        }
+    }
+
+    /// Goes back to what was kept of the same bodies; no two of them count as near each other until a search says so.
+    pub fn restore(&mut self, kept: Kept) {
+        self.groups.restore(&kept.touching, self.bodies.len());
+        self.loads = kept.loads;
+        (self.wall_watches, self.walls) = kept.walls;
     }
 
     /// Adds a triangle surface with the tree of its facets; must come before the bodies. `carrier`: the surface whose motion
@@ -344,7 +368,7 @@ impl ContactField {
 
     /// The springs of all touching contacts in a fixed order: (a, b, i, j, stretch).
     pub fn springs(&self) -> impl Iterator<Item = (u32, u32, u32, u32, Vector3<f64>)> + '_ {
-        let pairs = self.groups.all.iter().flat_map(|group| group.links.touching()).map(|grasp| {
+        let pairs = self.groups.touching().map(|grasp| {
             let (i, j) = self.spheres(&grasp);
             (grasp.bodies.0, grasp.bodies.1, i, j, grasp.spring.stretch)
         });

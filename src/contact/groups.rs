@@ -1,7 +1,7 @@
 //! Near pairs in groups: what one task works on lies together, and a search changes few of them.
 
 use super::body::Outline;
-use super::links::{Cursor, Links};
+use super::links::{Cursor, Grasp, Links};
 use super::pairs::Pair;
 use super::tasks::Findings;
 
@@ -80,11 +80,20 @@ impl Groups {
 
     /// The groups when bodies have other `numbers`, by which near ones follow each other: of the pairs only what touches is left.
     pub(super) fn renumber(&mut self, numbers: &[u32]) {
-        let touching = self.all.iter().flat_map(|group| group.links.touching());
-        let mut touching: Vec<_> = touching.map(|grasp| grasp.renumbered(numbers)).collect();
+        let mut touching: Vec<_> = self.touching().map(|grasp| grasp.renumbered(numbers)).collect();
         touching.sort_unstable_by_key(|grasp| (grasp.bodies, grasp.balls));
+        self.restore(&touching, numbers.len());
+    }
+
+    /// What touches, in order.
+    pub(super) fn touching(&self) -> impl Iterator<Item = Grasp> {
+        self.all.iter().flat_map(|group| group.links.touching())
+    }
+
+    /// Groups of `count` bodies, of whose pairs only what touches is there.
+    pub(super) fn restore(&mut self, touching: &[Grasp], count: usize) {
         self.all.clear();
-        self.cover(numbers.len());
+        self.cover(count);
         let group = self.group();
         for touching in touching.chunk_by(|x, y| group(x.bodies.0) == group(y.bodies.0)) {
             self.all[group(touching[0].bodies.0)].links = Links::of(touching);

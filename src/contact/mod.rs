@@ -24,5 +24,5 @@ mod tasks;
 mod walls;
 
 pub use energy::{ContactState, Press};
-pub use field::{ContactField, Partner, Tally, Wrench};
+pub use field::{ContactField, Kept, Partner, Tally, Wrench};
 pub use law::{ContactForce, Dashpots, PairLaw, Spring, Touch, damping_ratio};

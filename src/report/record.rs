@@ -120,6 +120,9 @@ pub struct Guards {
     /// Share of the steps that were taken in pieces, because a body was too fast for a whole one, %.
     #[serde(default)]
     pub divided_steps_percent: f64,
+    /// Frames that went wrong and were repeated in finer steps.
+    #[serde(default)]
+    pub repeated_frames: u64,
     /// Where energy is and where it went over the coated time, if the scene asks for the audit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyAudit>,

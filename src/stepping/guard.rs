@@ -29,7 +29,7 @@ impl Simulation {
 
     /// Overlap, travel and NaN, at every step.
     pub(super) fn guard_step(&self, dt: f64) -> Result<(), SimulationError> {
-        let (step, time) = (self.step, self.clock());
+        let (step, time) = (self.step + u64::from(self.part > 0.0), self.clock());
         if self.tally.deepest > MOST_OVERLAP
             && let Some((body, partner)) = self.deepest_contact()
         {
@@ -55,8 +55,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// That every body is where it can be, at every frame; notes the state if so.
-    pub(super) fn guard_frame(&mut self) -> Result<(), SimulationError> {
+    /// That every body is where it can be, at every frame.
+    pub(super) fn guard_frame(&self) -> Result<(), SimulationError> {
         let (step, time) = (self.step, self.clock());
         for (body, motion) in self.motions.iter().enumerate() {
             let p = motion.position;
@@ -69,7 +69,6 @@ impl Simulation {
             let body = self.number(body);
             return Err(SimulationError::Lost { body, place, step, time, step_key });
         }
-        self.note_good();
         Ok(())
     }
 

@@ -11,6 +11,7 @@ mod guard;
 mod impulse;
 mod numbering;
 mod readings;
+mod repeat;
 mod settling;
 mod simulation;
 mod stages;

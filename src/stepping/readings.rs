@@ -74,6 +74,11 @@ impl Simulation {
         self.divided as f64 / self.step.max(1) as f64
     }
 
+    /// Frames so far that went wrong and were repeated in finer steps.
+    pub fn repeated_frames(&self) -> u64 {
+        self.repeated
+    }
+
     /// Where the run time went.
     pub fn stopwatch(&self) -> &Stopwatch {
         &self.stopwatch

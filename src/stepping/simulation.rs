@@ -56,13 +56,17 @@ pub struct Simulation {
     drives: Vec<(Vector3<f64>, Vector3<f64>)>,
     pub(super) wrenches: Vec<Wrench>,
     /// How long the kick that ends the last step takes, if it is still to be made, s.
-    owed: f64,
+    pub(super) owed: f64,
     /// Distance that each body's farthest sphere centre can have moved against the carrier so far, m.
     pub(super) odometers: Vec<f64>,
     /// How far the fastest body went in a whole step by its last motion, of what it may.
     pub(super) haste: f64,
+    /// Pieces of each step, at least.
+    pub(super) least_pieces: f64,
     /// Steps that were taken in pieces.
     pub(super) divided: u64,
+    /// Frames that were repeated in finer steps.
+    pub(super) repeated: u64,
     pub(super) rng: ChaCha8Rng,
     pub(super) torque_sum: f64,
     pub(super) torque_time: f64,
@@ -117,7 +121,9 @@ impl Simulation {
             owed: 0.0,
             odometers: Vec::new(),
             haste: 0.0,
+            least_pieces: 1.0,
             divided: 0,
+            repeated: 0,
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
             torque_sum: 0.0,
             torque_time: 0.0,
@@ -232,13 +238,13 @@ impl Simulation {
             self.advance_by_impulses();
             return Ok(());
         }
-        let pieces = (self.haste / HASTY).ceil().clamp(1.0, MOST_PIECES);
-        self.divided += u64::from(pieces > 1.0);
+        let pieces = (self.haste / HASTY).ceil().clamp(self.least_pieces, MOST_PIECES);
         for piece in 1..pieces as u64 {
             self.part = piece as f64 / pieces;
             self.advance_piece(1.0 / pieces)?;
         }
         (self.step, self.part) = (self.step + 1, 0.0);
+        self.divided += u64::from(pieces > 1.0);
         self.advance_piece(1.0 / pieces)
     }
 
@@ -319,7 +325,7 @@ impl Simulation {
         if self.drum.is_some() { self.surfaces[0] } else { Motion::at_rest() }
     }
 
-    fn move_surfaces(&mut self) {
+    pub(super) fn move_surfaces(&mut self) {
         let time = self.clock();
         for (motion, (velocity, spin)) in self.surfaces.iter_mut().zip(&self.drives) {
             let rotation = Rotation3::new(spin * time).into_inner();
@@ -338,14 +344,20 @@ impl Simulation {
 
     /// Advances by one frame interval.
     pub(super) fn advance_frame(&mut self) -> Result<(), SimulationError> {
+        self.try_frame()?;
+        self.note_good();
+        self.number_by_place(self.steps_per_frame());
+        Ok(())
+    }
+
+    /// Takes all steps of a frame.
+    pub(super) fn take_steps(&mut self) -> Result<(), SimulationError> {
         self.torque_sum = 0.0;
         self.torque_time = 0.0;
         // All steps inside the pool: handing work to it from outside costs more than a step does.
         rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
         self.kick();
-        self.guard_frame()?;
-        self.number_by_place(self.steps_per_frame());
-        Ok(())
+        self.guard_frame()
     }
 
     fn steps_per_frame(&self) -> u64 {

@@ -208,6 +208,16 @@ fn steps_are_divided_while_a_body_is_fast() {
     near(end.position.y, whole.position.y, 3e-3, "way");
 }
 
+/// Elastic spheres whose energy grows, at a third of the steps that they need, until some frame fails in whole steps.
+#[test]
+fn a_frame_that_goes_wrong_is_repeated_in_finer_steps() {
+    let set = set!["time.step=Fixed(Us(100))", "time.frame_interval=Us(100)"];
+    let mut simulation = Simulation::new(&scene("elastic_gas", &set)).expect("is built");
+    simulation.run(0, 5000, &mut [], &mut |_| true).expect("each frame at the second attempt at the latest");
+    assert!((1..50).contains(&simulation.repeated_frames()), "{}", simulation.repeated_frames());
+    near(simulation.clock(), 0.5, 1e-12, "time");
+}
+
 #[test]
 fn nothing_and_one_tablet() {
     let (code, message, _) = of_run("small_bed", &["--set", "batches=[]"]);
