@@ -73,11 +73,11 @@ pub(super) fn uniformity(data: &ReportData) -> Plot {
         let line = Line::new().color(ink::GUIDE).width(1.0).dash(DashType::Dot);
         plot.add_trace(curve(times, guide, "time to the power −1/2", line));
     }
-    let mut layout = log_log("coated time, s", "coefficient of variation");
-    if let Some(range) = range(data) {
-        layout = layout.y_axis(log_axis("coefficient of variation").range(range));
-    }
-    plot.set_layout(layout);
+    let axis = log_axis("coefficient of variation");
+    plot.set_layout(over_time(match range(data) {
+        Some(range) => axis.range(range),
+        None => axis,
+    }));
     plot
 }
 
@@ -99,7 +99,7 @@ pub(super) fn schemes(data: &ReportData) -> Plot {
     plot.add_trace(measured(data, "each tablet", ink::INTER, |r| r.cov_intra_each));
     plot.add_trace(measured(data, "average tablet", ink::AVERAGE, |r| Some(r.cov_intra_average_tablet)));
     plot.add_trace(measured(data, "spread of CoV_intra,i between tablets", ink::GUIDE, |r| r.sd_cov_intra));
-    plot.set_layout(log_log("coated time, s", "coefficient of variation"));
+    plot.set_layout(over_time(log_axis("coefficient of variation")));
     plot
 }
 
@@ -145,10 +145,10 @@ fn skip() -> plotly::common::HoverInfo {
     plotly::common::HoverInfo::Skip
 }
 
-fn log_log(x: &str, y: &str) -> Layout {
+fn over_time(y: Axis) -> Layout {
     Layout::new()
-        .x_axis(log_axis(x))
-        .y_axis(log_axis(y))
+        .x_axis(log_axis("coated time, s"))
+        .y_axis(y)
         .height(460)
         .hover_mode(HoverMode::X)
         .font(Font::new().family("system-ui, sans-serif").size(13).color(ink::TEXT))

@@ -27,15 +27,15 @@ impl Simulation {
         }
     }
 
-    /// Overlap, travel and NaN, at every step.
-    pub(super) fn guard_step(&self, dt: f64) -> Result<(), SimulationError> {
+    /// Overlap, travel and NaN, at every step of `dt`, s, in which the fastest body went `haste` times as far as it may.
+    pub(super) fn guard_step(&self, dt: f64, haste: f64) -> Result<(), SimulationError> {
         let (step, time) = (self.step + u64::from(self.part > 0.0), self.clock());
         if self.tally.deepest > MOST_OVERLAP
             && let Some((body, partner)) = self.deepest_contact()
         {
             return Err(SimulationError::Overlap { body, partner, step, time, ratio: self.tally.deepest });
         }
-        if self.haste > 1.0 {
+        if haste > 1.0 {
             let ratios = self.bodies.iter().zip(&self.motions).map(|(body, motion)| {
                 let turn = motion.rotation.tr_mul(&motion.spin) * dt;
                 travel(&(motion.velocity * dt), &turn, body.reach, &body.arms) * body.inverse_travel

@@ -14,6 +14,8 @@ mod readings;
 mod repeat;
 mod settling;
 mod simulation;
+#[cfg(test)]
+mod small_bed;
 mod stages;
 mod stopwatch;
 mod time_step;

@@ -53,18 +53,14 @@ impl Simulation {
 
 #[cfg(test)]
 mod tests {
+    use super::super::small_bed::small_bed;
     use super::*;
     use crate::scene::Scene;
     use std::path::Path;
 
     #[test]
     fn other_numbers_change_nothing_but_rounding() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/round.ron");
-        let overrides = ["batches[0].mass=G(40)", "shapes.round.spheres=12", "spray=None"].map(String::from);
-        let scene = Scene::load(&path, &overrides).expect("is valid");
-        let mut simulation = Simulation::new(&scene).expect("is built");
-        simulation.fill(&mut |_| true).expect("is filled");
-        simulation.run(0, 10, &mut [], &mut |_| true).expect("runs");
+        let mut simulation = small_bed(40, 10);
         let mut renumbered = simulation.clone();
         let n = simulation.bodies.len() as u32;
         let order: Vec<u32> = (0..n).map(|k| (7 * k + 3) % n).collect();

@@ -33,16 +33,13 @@ impl Simulation {
     /// Those of the second attempt.
     pub(super) fn try_frame(&mut self) -> Result<(), SimulationError> {
         if self.impulses.is_some() {
-            return self.take_steps();
+            return self.take_steps(1.0);
         }
         let start = self.start();
-        self.take_steps().or_else(|_| {
+        self.take_steps(1.0).or_else(|_| {
             self.return_to(start);
             self.repeated += 1;
-            self.least_pieces = PIECES;
-            let ended = self.take_steps();
-            self.least_pieces = 1.0;
-            ended
+            self.take_steps(PIECES)
         })
     }
 
@@ -64,36 +61,29 @@ impl Simulation {
     }
 
     fn return_to(&mut self, start: Start) {
-        let Start { step, haste, divided, deepest, stiff, tally, audit, .. } = start;
-        (self.step, self.part, self.owed) = (step, 0.0, 0.0);
-        (self.haste, self.divided) = (haste, divided);
-        (self.deepest, self.stiff, self.tally, self.audit) = (deepest, stiff, tally, audit);
+        (self.step, self.part, self.owed) = (start.step, 0.0, 0.0);
+        (self.haste, self.divided) = (start.haste, start.divided);
+        (self.deepest, self.stiff) = (start.deepest, start.stiff);
+        (self.tally, self.audit) = (start.tally, start.audit);
         (self.bodies, self.motions) = (start.bodies, start.motions);
         (self.wrenches, self.odometers) = (start.wrenches, start.odometers);
         self.field.restore(start.field);
-        let same: Vec<u32> = (0..self.bodies.len() as u32).collect();
-        self.world.renumber(&same);
+        self.world.forget();
         self.move_surfaces();
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::small_bed::small_bed;
     use super::*;
-    use crate::scene::Scene;
-    use std::path::Path;
 
     #[test]
     fn from_where_a_frame_began_it_comes_to_the_same() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/round.ron");
-        let overrides = ["batches[0].mass=G(100)", "shapes.round.spheres=12", "spray=None"].map(String::from);
-        let scene = Scene::load(&path, &overrides).expect("is valid");
-        let mut simulation = Simulation::new(&scene).expect("is built");
-        simulation.fill(&mut |_| true).expect("is filled");
-        simulation.run(0, 20, &mut [], &mut |_| true).expect("runs");
+        let mut simulation = small_bed(100, 20);
         let mut start = Some(simulation.start());
         let ends = [(); 2].map(|()| {
-            simulation.take_steps().expect("runs");
+            simulation.take_steps(1.0).expect("runs");
             let Tally { sphere_contacts, wall_contacts, deepest, .. } = simulation.tally();
             assert!(sphere_contacts > 20 && wall_contacts > 20);
             let end = (simulation.clock(), simulation.states(), simulation.drum_torque(), deepest);

@@ -61,8 +61,6 @@ pub struct Simulation {
     pub(super) odometers: Vec<f64>,
     /// How far the fastest body went in a whole step by its last motion, of what it may.
     pub(super) haste: f64,
-    /// Pieces of each step, at least.
-    pub(super) least_pieces: f64,
     /// Steps that were taken in pieces.
     pub(super) divided: u64,
     /// Frames that were repeated in finer steps.
@@ -121,7 +119,6 @@ impl Simulation {
             owed: 0.0,
             odometers: Vec::new(),
             haste: 0.0,
-            least_pieces: 1.0,
             divided: 0,
             repeated: 0,
             rng: ChaCha8Rng::seed_from_u64(scene.seed),
@@ -232,13 +229,13 @@ impl Simulation {
         self.wrenches.push(Wrench::weight(&self.scene.gravity, mass));
     }
 
-    /// One time step, in as many pieces as the fastest body asks for.
-    fn advance(&mut self) -> Result<(), SimulationError> {
+    /// One time step, in as many pieces as the fastest body asks for, and in `least` at least.
+    fn advance(&mut self, least: f64) -> Result<(), SimulationError> {
         if self.impulses.is_some() {
             self.advance_by_impulses();
             return Ok(());
         }
-        let pieces = (self.haste / HASTY).ceil().clamp(self.least_pieces, MOST_PIECES);
+        let pieces = (self.haste / HASTY).ceil().clamp(least, MOST_PIECES);
         for piece in 1..pieces as u64 {
             self.part = piece as f64 / pieces;
             self.advance_piece(1.0 / pieces)?;
@@ -252,7 +249,7 @@ impl Simulation {
     /// next one where nobody looks at the bodies in between.
     fn advance_piece(&mut self, share: f64) -> Result<(), SimulationError> {
         let dt = share * self.time_step.step;
-        self.drift(dt);
+        let haste = self.drift(dt);
         self.stopwatch.lap(Phase::Motion);
         self.feel(dt);
         self.owed = 0.5 * dt;
@@ -264,9 +261,8 @@ impl Simulation {
             audit.note(dt, &self.scene.gravity, bodies, &self.surfaces, self.field.contacts());
         }
         self.note_forces(dt);
-        self.guard_step(dt)?;
-        self.haste /= share;
-        Ok(())
+        self.haste = haste / share;
+        self.guard_step(dt, haste)
     }
 
     /// Brings velocities to the time of the places.
@@ -307,7 +303,8 @@ impl Simulation {
         self.stopwatch.lap(Phase::Contact);
     }
 
-    fn drift(&mut self, dt: f64) {
+    /// Moves everything, and tells how far the fastest body went, of what it may.
+    fn drift(&mut self, dt: f64) -> f64 {
         let owed = std::mem::take(&mut self.owed);
         let stride = Stride { dt, owed, gravity: self.scene.gravity, carrier: self.carrier().spin };
         let (wrenches, odometers) =
@@ -316,8 +313,9 @@ impl Simulation {
         let drift = |(((bodies, motions), wrenches), odometers)| {
             pulp::Arch::new().dispatch(Drift { bodies, motions, wrenches, odometers, stride })
         };
-        self.haste = bodies.zip(wrenches).zip(odometers).map(drift).reduce(|| 0.0, f64::max);
+        let haste = bodies.zip(wrenches).zip(odometers).map(drift).reduce(|| 0.0, f64::max);
         self.move_surfaces();
+        haste
     }
 
     /// What the bed moves with: the drum, which is the first surface and turns about the origin, or nothing.
@@ -350,12 +348,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Takes all steps of a frame.
-    pub(super) fn take_steps(&mut self) -> Result<(), SimulationError> {
+    /// Takes all steps of a frame, each in `pieces` at least.
+    pub(super) fn take_steps(&mut self, pieces: f64) -> Result<(), SimulationError> {
         self.torque_sum = 0.0;
         self.torque_time = 0.0;
         // All steps inside the pool: handing work to it from outside costs more than a step does.
-        rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance()))?;
+        rayon::scope(|_| (0..self.steps_per_frame()).try_for_each(|_| self.advance(pieces)))?;
         self.kick();
         self.guard_frame()
     }

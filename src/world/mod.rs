@@ -225,6 +225,11 @@ impl World {
         for (number, (body, _)) in self.tablets.iter().enumerate() {
             self.bodies[*body].user_data = number as u128;
         }
+        self.forget();
+    }
+
+    /// No two tablets count as near each other until the next search, which looks at all of them.
+    pub fn forget(&mut self) {
         self.tracks.iter_mut().for_each(|track| track.known = Relative::NOWHERE);
         self.marks.fill(f64::NEG_INFINITY);
         self.boxes = Boxes::default();

@@ -1,6 +1,6 @@
 //! Stiff and extreme scenes: each runs correctly, or is refused with a message that says what to change.
 
-use super::support::{attempt, close, folder, near, run, scene, set, watch};
+use super::support::{attempt, close, clump_file, folder, near, run, scene, set, watch};
 use assert_cmd::Command;
 use pancoat::contact::damping_ratio;
 use pancoat::scene::Scene;
@@ -185,9 +185,7 @@ fn a_body_too_fast_for_its_wall_is_stopped() {
 #[test]
 fn steps_are_divided_while_a_body_is_fast() {
     let landing = |small: f64| {
-        let file = tempfile::Builder::new().suffix(".txt").tempfile().expect("can be made");
-        std::fs::write(file.path(), format!("0 0 0 0.002\n0 0 0 {small}\n")).expect("can be written");
-        let path = file.path().display().to_string();
+        let (_file, path) = clump_file(&format!("0 0 0 0.002\n0 0 0 {small}\n"));
         let set = set![
             "shapes.ring.recipe=Clump(file: {path:?}, inertia_per_mass: Mm2(1, 1, 1))",
             "pairs[0].restitution=1",

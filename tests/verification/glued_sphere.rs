@@ -8,7 +8,7 @@
 //!   more spheres touch at once (V34).
 //! - At 45 degrees with friction, damped by the contact: the means of e_n and e_t come to those of one sphere.
 
-use super::support::{close, run, set};
+use super::support::{close, clump_file, run, set};
 use nalgebra::{UnitQuaternion, Vector3};
 use pancoat::contact::damping_ratio;
 use std::f64::consts::PI;
@@ -39,14 +39,13 @@ struct Landing {
 /// A landing in the orientation that turns `down` downwards.
 fn landing(n: usize, down: Vector3<f64>, velocity: [f64; 2], more: &[String]) -> Landing {
     let centers: Vec<Vector3<f64>> = directions(n).map(|d| d * RADIUS / 2.0).collect();
-    let file = tempfile::Builder::new().suffix(".txt").tempfile().expect("can be made");
     let row = |c: &Vector3<f64>| format!("{:e} {:e} {:e} {:e}\n", c.x, c.y, c.z, RADIUS / 2.0);
-    std::fs::write(file.path(), centers.iter().map(row).collect::<String>()).expect("can be written");
+    let (_file, path) = clump_file(&centers.iter().map(row).collect::<String>());
     let turn = UnitQuaternion::rotation_between(&down, &-Vector3::y()).expect("is not upside down");
     let mut turned: Vec<Vector3<f64>> = centers.iter().map(|c| turn * c).collect();
     turned.sort_by(|a, b| a.y.total_cmp(&b.y));
     let (lever, gap) = (turned[0].x.hypot(turned[0].z), turned[1].y - turned[0].y);
-    let (path, inertia) = (file.path().display().to_string(), 0.4 * 2.5 * 2.5);
+    let inertia = 0.4 * 2.5 * 2.5;
     let ([vx, vy], start, q) = (velocity, 1e3 * (RADIUS / 2.0 - turned[0].y), turn.coords);
     let (w, x, y, z) = (q.w, q.x, q.y, q.z);
     let set = set![

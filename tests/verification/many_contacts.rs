@@ -3,7 +3,7 @@
 //! contacts e is delivered. Tolerance 1 % and 0.002 of the table, 0.5 % of `Contact`. Deviation known: dashpots that together
 //! would overshoot in a step are cut, which vanishes with the step. So are those of a sphere that twelve others hold.
 
-use super::support::{attempt, close, run, scene, set};
+use super::support::{attempt, close, clump_file, run, scene, set};
 use nalgebra::Vector3;
 use pancoat::contact::PairLaw;
 use pancoat::scene::{FreeBody, PairProperties, PairTable, StepChoice};
@@ -11,13 +11,11 @@ use std::f64::consts::{SQRT_2, TAU};
 
 /// Restitution of n spheres on a ring.
 fn landing(n: u32, e: f64, mode: &str) -> f64 {
-    let file = tempfile::Builder::new().suffix(".txt").tempfile().expect("can be made");
     let row = |k: u32| {
         let angle = TAU * f64::from(k) / f64::from(n);
         format!("{} 0 {} 0.002\n", 8e-3 * angle.cos(), 8e-3 * angle.sin())
     };
-    std::fs::write(file.path(), (0..n).map(row).collect::<String>()).expect("can be written");
-    let path = file.path().display().to_string();
+    let (_file, path) = clump_file(&(0..n).map(row).collect::<String>());
     let set = set![
         "shapes.ring.recipe=Clump(file: {path:?}, inertia_per_mass: Mm2(33.6, 65.6, 33.6))",
         "pairs[0].restitution={e}",

@@ -2,7 +2,7 @@
 //! spheres in another order to round-off; everything 10 m/s faster: velocities to 1e-10 (Galilei). A loaded spring that
 //! turns with its contact by 90 degrees about x, y and the normal: length to 1e-9, direction to 1e-4 (first order in the angle of a step).
 
-use super::support::{law, run, set, watch};
+use super::support::{clump_file, law, run, set, watch};
 use nalgebra::{Rotation3, Vector3};
 use pancoat::contact::{Dashpots, Spring, Touch};
 use pancoat::scene::ContactSettings;
@@ -18,9 +18,7 @@ fn one_sphere_clump_is_a_sphere() {
 
 #[test]
 fn order_of_spheres_is_round_off() {
-    let file = tempfile::Builder::new().suffix(".txt").tempfile().expect("can be made");
-    std::fs::write(file.path(), "0.003 0 0 0.002\n-0.003 0 0 0.002\n").expect("can be written");
-    let path = file.path().display().to_string();
+    let (_file, path) = clump_file("0.003 0 0 0.002\n-0.003 0 0 0.002\n");
     let other = set!["shapes.dumbbell.recipe=Clump(file: {path:?}, inertia_per_mass: Mm2(1.6, 10.6, 10.6))"];
     let (first, second) = (run("off_centre_pair", &[]), run("off_centre_pair", &other));
     for (a, b) in first.iter().zip(&second) {

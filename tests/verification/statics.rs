@@ -4,7 +4,7 @@
 //! velocity in a step brings a body to rest all the same (derived: met by the velocity of half a step before it is stable
 //! below 2, by one predicted for the end of the step below 1), and so does a step too long for the swing.
 
-use super::support::{near, run, scene, set, watch};
+use super::support::{clump_file, near, run, scene, set, watch};
 use pancoat::stepping::Simulation;
 use std::f64::consts::TAU;
 
@@ -12,15 +12,10 @@ use std::f64::consts::TAU;
 const MODULUS: f64 = 2.033_898_305e6;
 
 fn three() -> (tempfile::NamedTempFile, Vec<String>) {
-    let file = tempfile::Builder::new().suffix(".txt").tempfile().expect("can be made");
     let third = |k: f64| (0.006 * (k * TAU / 3.0).cos(), 0.006 * (k * TAU / 3.0).sin());
     let rows: String = [0.0, 1.0, 2.0].map(|k| format!("{} 0 {} 0.002\n", third(k).0, third(k).1)).concat();
-    std::fs::write(file.path(), rows).expect("can be written");
-    let recipe = format!(
-        "shapes.ball.recipe=Clump(file: {:?}, inertia_per_mass: Mm2(19.6, 37.6, 19.6))",
-        file.path().display().to_string()
-    );
-    (file, vec![recipe])
+    let (file, path) = clump_file(&rows);
+    (file, set!["shapes.ball.recipe=Clump(file: {path:?}, inertia_per_mass: Mm2(19.6, 37.6, 19.6))"].into())
 }
 
 fn overlap(n: f64) -> f64 {

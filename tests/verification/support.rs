@@ -54,6 +54,14 @@ pub(crate) fn run(name: &str, set: &[String]) -> Vec<BodyState> {
     watch(name, set).pop().expect("has a start").1
 }
 
+/// A clump of rows "x y z r", m, in a file that goes away with the first, and that file's path.
+pub(crate) fn clump_file(rows: &str) -> (tempfile::NamedTempFile, String) {
+    let file = tempfile::Builder::new().suffix(".txt").tempfile().expect("can be made");
+    std::fs::write(file.path(), rows).expect("can be written");
+    let path = file.path().display().to_string();
+    (file, path)
+}
+
 /// `format!` into a list of values to set.
 macro_rules! set {
     ($($text:literal),* $(,)?) => { [$(format!($text)),*] };
