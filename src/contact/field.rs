@@ -276,14 +276,14 @@ impl ContactField {
                     poses.iter_mut().zip(motions).for_each(|(pose, motion)| pose.follow(motion, grain));
                 }
                 let poses = poses.as_deref();
-                groups.all.par_iter_mut().for_each(|group| {
+                groups.all.par_iter_mut().with_max_len(1).for_each(|group| {
                     DESK.with_borrow_mut(|desk| {
                         let task = PairTask { group, desk, setting, poses, laws, damping, keep_contacts };
                         pulp::Arch::new().dispatch(task);
                     });
                 });
             },
-            || wall_lists.zip(&mut self.found_at_walls).for_each(walls),
+            || wall_lists.zip(&mut self.found_at_walls).with_max_len(1).for_each(walls),
         );
         let mut tally = self.gather(wrenches);
         tally.stiff = self.ease(wrenches, dt);
