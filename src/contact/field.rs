@@ -276,6 +276,7 @@ impl ContactField {
                     poses.iter_mut().zip(motions).for_each(|(pose, motion)| pose.follow(motion, grain));
                 }
                 let poses = poses.as_deref();
+                // One by one: a thread that is through takes over what another has not begun.
                 groups.all.par_iter_mut().with_max_len(1).for_each(|group| {
                     DESK.with_borrow_mut(|desk| {
                         let task = PairTask { group, desk, setting, poses, laws, damping, keep_contacts };
