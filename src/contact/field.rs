@@ -267,6 +267,7 @@ impl ContactField {
         self.found_at_walls.resize_with(self.walls.len().div_ceil(CHUNK), Findings::default);
         let wall_lists = self.wall_watches.par_chunks_mut(CHUNK).zip(self.walls.par_chunks_mut(CHUNK));
         let (groups, poses, grain) = (&mut self.groups, &mut self.poses, self.grain);
+        // Tasks go one by one: a thread that is through takes over what another has not begun.
         rayon::join(
             || {
                 let NearChanges { parted, met } = search();
@@ -276,7 +277,6 @@ impl ContactField {
                     poses.iter_mut().zip(motions).for_each(|(pose, motion)| pose.follow(motion, grain));
                 }
                 let poses = poses.as_deref();
-                // One by one: a thread that is through takes over what another has not begun.
                 groups.all.par_iter_mut().with_max_len(1).for_each(|group| {
                     DESK.with_borrow_mut(|desk| {
                         let task = PairTask { group, desk, setting, poses, laws, damping, keep_contacts };
